@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The stiffness of cells: one stencil for all regular ones, own rows for the others. No global
+/// matrix exists.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/cell_system.hpp"
+#include "core/base/halo.hpp"
+#include "core/cells/cell_group.hpp"
+#include "core/cells/part_stiffness.hpp"
+#include "core/cells/regular_runs.hpp"
+
+namespace cdca {
+
+/// Rows of own stiffness: for each listed unknown the unknowns that it is coupled to.
+struct StiffnessRows {
+  std::vector<LocalId> unknown;          ///< one per row, ascending
+  std::vector<std::size_t> start{0};
+  std::vector<LocalId> column;
+  std::vector<double> value;
+
+  /// Row number of an unknown, or -1.
+  std::ptrdiff_t find(LocalId unknown) const;
+};
+
+/// Implements the rule for the cells of this rank. Columns are owned: forces that own cells put on
+/// ghosts go to the ghosts' owners.
+class CellStiffness final : public CellSystem {
+ public:
+  /// held: for every unknown, whether a support prescribes it. Collective (for the halo).
+  CellStiffness(const BasisContext& context, const ElasticMatrix& elastic,
+                const std::vector<char>& held, Communicator& communicator);
+
+  LocalId owned() const override { return owned_; }
+  LocalId count() const override { return count_; }
+  Communicator& communicator() const override { return communicator_; }
+  const Halo& halo() const { return halo_; }
+
+  void apply(std::span<const double> displacements, std::span<double> forces) const override;
+  void sweep(SweepDirection direction, double omega, std::span<double> forces,
+             std::span<double> displacements) const override;
+  void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
+  void clear_held(std::span<double> values) const override;
+
+  /// Cells that use the common stencil.
+  std::int64_t regular_cells() const { return regular_.cells(); }
+  std::int64_t own_row_entries() const { return std::int64_t(rows_.value.size()); }
+
+ private:
+  /// The order of the rule: runs of regular cells and single cells (or zones), by node number.
+  struct Item {
+    LocalId node;
+    bool run;
+    std::size_t index;
+  };
+
+  void build_rows(const BasisContext& context, const ElasticMatrix& elastic,
+                  const std::vector<char>& regular);
+  void build_groups(const BasisContext& context, const std::vector<char>& held,
+                    const std::vector<char>& regular);
+  void order_items();
+  void move_group(const CellGroup& group, double omega, std::span<double> forces,
+                  std::span<double> displacements) const;
+
+  Communicator& communicator_;
+  Halo halo_;
+  LocalId owned_ = 0;
+  LocalId count_ = 0;
+  RegularRuns regular_;
+  StiffnessRows rows_;
+  std::vector<CellGroup> groups_;
+  std::vector<Item> items_;
+  std::vector<LocalId> held_;
+};
+
+}  // namespace cdca

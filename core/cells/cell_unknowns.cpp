@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/cell_unknowns.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace cdca {
+
+namespace {
+
+/// A special cell as a line of numbers: node, pieces, parts and pieces of each slot, tips.
+void write_cell(GlobalId node, const SpecialCell& cell, std::vector<std::int64_t>& out) {
+  out.push_back(node);
+  out.push_back(cell.pieces.count);
+  for (const auto& slot : cell.pieces.piece) {
+    out.push_back(std::int64_t(slot.size()));
+    out.insert(out.end(), slot.begin(), slot.end());
+  }
+  out.push_back(std::int64_t(cell.tips.size()));
+  for (const TipUnknowns& tip : cell.tips) out.push_back(tip.zone);
+}
+
+std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, std::size_t& at) {
+  const GlobalId node = in[at++];
+  SpecialCell cell;
+  cell.pieces.count = int(in[at++]);
+  for (auto& slot : cell.pieces.piece) {
+    const auto parts = std::size_t(in[at++]);
+    for (std::size_t k = 0; k < parts; ++k) slot.push_back(int(in[at++]));
+  }
+  const auto tips = std::size_t(in[at++]);
+  for (std::size_t k = 0; k < tips; ++k) cell.tips.push_back({int(in[at++]), 0});
+  return {node, std::move(cell)};
+}
+
+}  // namespace
+
+CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementCuts& cuts,
+                           const std::vector<TipZone>& zones, Communicator& communicator)
+    : owned_nodes_(mesh.owned_nodes()) {
+  find_own(mesh, cuts, zones);
+  tell_ghosts(mesh, communicator);
+  number(mesh);
+}
+
+void CellUnknowns::find_own(const LocalMesh& mesh, const ElementCuts& cuts,
+                            const std::vector<TipZone>& zones) {
+  std::set<LocalId> candidates;
+  for (LocalId e = 0; e < mesh.element_count(); ++e) {
+    if (!cuts.touched(mesh.element(e))) continue;
+    for (const LocalId n : mesh.element_nodes(mesh.element(e))) candidates.insert(n);
+  }
+  for (const TipZone& zone : zones) {
+    for (const GlobalId id : zone.nodes) {
+      const LocalId n = mesh.find_node(mesh.grid().node_index(id));
+      if (n >= 0) candidates.insert(n);
+    }
+  }
+  for (const LocalId n : candidates) {
+    if (!mesh.owns(n)) continue;
+    SpecialCell cell;
+    cell.pieces = pieces_of(cuts, mesh.node(n));
+    for (std::size_t z = 0; z < zones.size(); ++z) {
+      if (zones[z].nodes.count(mesh.node_id(n))) cell.tips.push_back({int(z), 0});
+    }
+    if (cell.pieces.count > 1 || !cell.tips.empty()) special_.emplace(n, std::move(cell));
+  }
+}
+
+void CellUnknowns::tell_ghosts(const LocalMesh& mesh, Communicator& communicator) {
+  std::vector<int> ranks;
+  std::vector<Bytes> outgoing;
+  for (const SharedNodes& shared : mesh.shared()) {
+    std::vector<std::int64_t> cells;
+    for (const LocalId n : shared.owned) {
+      const auto it = special_.find(n);
+      if (it != special_.end()) write_cell(mesh.node_id(n), it->second, cells);
+    }
+    ranks.push_back(shared.rank);
+    outgoing.emplace_back();
+    pack(outgoing.back(), std::span<const std::int64_t>(cells));
+  }
+  for (const Bytes& bytes : communicator.exchange(ranks, outgoing)) {
+    const auto cells = unpack<std::int64_t>(bytes);
+    for (std::size_t at = 0; at < cells.size();) {
+      auto [id, cell] = read_cell(cells, at);
+      special_.emplace(mesh.find_node(mesh.grid().node_index(id)), std::move(cell));
+    }
+  }
+}
+
+void CellUnknowns::number(const LocalMesh& mesh) {
+  std::vector<LocalId> nodes;
+  for (const auto& [n, cell] : special_) nodes.push_back(n);
+  std::sort(nodes.begin(), nodes.end());
+  LocalId next = 2 * owned_nodes_;
+  const auto place = [&](LocalId n) {
+    SpecialCell& cell = special_.at(n);
+    cell.extra = next;
+    next += 2 * (cell.pieces.count - 1);
+    for (TipUnknowns& tip : cell.tips) {
+      tip.first = next;
+      next += 8;
+    }
+  };
+  for (const LocalId n : nodes) {
+    if (mesh.owns(n)) place(n);
+  }
+  owned_ = ghost_start_ = next;
+  next += 2 * (mesh.node_count() - owned_nodes_);
+  for (const LocalId n : nodes) {
+    if (!mesh.owns(n)) place(n);
+  }
+  count_ = next;
+}
+
+const SpecialCell* CellUnknowns::special(LocalId node) const {
+  const auto it = special_.find(node);
+  return it == special_.end() ? nullptr : &it->second;
+}
+
+LocalId CellUnknowns::of_piece(LocalId node, int piece) const {
+  if (piece > 0) return special_.at(node).extra + 2 * (piece - 1);
+  return node < owned_nodes_ ? 2 * node : ghost_start_ + 2 * (node - owned_nodes_);
+}
+
+std::vector<LocalId> CellUnknowns::of_cell(LocalId node) const {
+  std::vector<LocalId> unknowns;
+  for (int p = 0; p < pieces(node); ++p) {
+    unknowns.push_back(of_piece(node, p));
+    unknowns.push_back(of_piece(node, p) + 1);
+  }
+  for (const TipUnknowns& tip : tips(node)) {
+    for (LocalId k = 0; k < 8; ++k) unknowns.push_back(tip.first + k);
+  }
+  return unknowns;
+}
+
+int CellUnknowns::piece(LocalId node, std::size_t slot, int part) const {
+  const SpecialCell* cell = special(node);
+  return cell ? cell->pieces.piece[slot][std::size_t(part)] : 0;
+}
+
+int CellUnknowns::pieces(LocalId node) const {
+  const SpecialCell* cell = special(node);
+  return cell ? cell->pieces.count : 1;
+}
+
+std::span<const TipUnknowns> CellUnknowns::tips(LocalId node) const {
+  const SpecialCell* cell = special(node);
+  return cell ? std::span<const TipUnknowns>(cell->tips) : std::span<const TipUnknowns>();
+}
+
+std::vector<SharedUnknowns> CellUnknowns::shared(const LocalMesh& mesh) const {
+  std::vector<SharedUnknowns> lists;
+  const auto append = [this](LocalId n, std::vector<LocalId>& list) {
+    const auto unknowns = of_cell(n);
+    list.insert(list.end(), unknowns.begin(), unknowns.end());
+  };
+  for (const SharedNodes& nodes : mesh.shared()) {
+    SharedUnknowns shared;
+    shared.rank = nodes.rank;
+    for (const LocalId n : nodes.owned) append(n, shared.owned);
+    for (const LocalId n : nodes.ghosts) append(n, shared.ghosts);
+    lists.push_back(std::move(shared));
+  }
+  return lists;
+}
+
+}  // namespace cdca

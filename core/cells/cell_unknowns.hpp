@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Which unknowns each cell has, and where they stand in the vectors of the solver.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/communicator.hpp"
+#include "core/base/halo.hpp"
+#include "core/cells/pieces.hpp"
+#include "core/cells/tip_zone.hpp"
+#include "core/mesh/local_mesh.hpp"
+
+namespace cdca {
+
+/// Eight unknowns: the coefficients b of the four near-tip functions (Eq. 5), x and y of each.
+struct TipUnknowns {
+  int zone = 0;     ///< index of the tip zone
+  LocalId first = 0;
+};
+
+/// A cell that is not plain: several pieces, near-tip functions, or both.
+struct SpecialCell {
+  CellPieces pieces;
+  LocalId extra = 0;  ///< first unknown of piece 1; those of the other pieces follow
+  std::vector<TipUnknowns> tips;
+};
+
+/// Numbers of the unknowns on this rank. Piece 0 of node n has 2n and 2n+1 for own nodes; further
+/// pieces and near-tip unknowns of own cells follow, then the same for ghosts.
+class CellUnknowns {
+ public:
+  CellUnknowns() = default;
+  /// Collective: owners tell the ranks that hold ghosts of their cells what pieces these have.
+  CellUnknowns(const LocalMesh& mesh, const ElementCuts& cuts, const std::vector<TipZone>& zones,
+               Communicator& communicator);
+
+  LocalId owned() const { return owned_; }
+  LocalId count() const { return count_; }
+
+  /// Null for a plain cell.
+  const SpecialCell* special(LocalId node) const;
+  /// First unknown (x; y follows) of a piece.
+  LocalId of_piece(LocalId node, int piece) const;
+  /// Every unknown of a cell in order: pieces, then near-tip.
+  std::vector<LocalId> of_cell(LocalId node) const;
+  /// The piece that a part of an element round the node belongs to. slot as in CellPieces.
+  int piece(LocalId node, std::size_t slot, int part) const;
+  int pieces(LocalId node) const;
+  std::span<const TipUnknowns> tips(LocalId node) const;
+
+  std::vector<SharedUnknowns> shared(const LocalMesh& mesh) const;
+
+ private:
+  void find_own(const LocalMesh& mesh, const ElementCuts& cuts, const std::vector<TipZone>& zones);
+  void tell_ghosts(const LocalMesh& mesh, Communicator& communicator);
+  void number(const LocalMesh& mesh);
+
+  LocalId owned_nodes_ = 0;
+  LocalId ghost_start_ = 0;  ///< first unknown of the first ghost
+  LocalId owned_ = 0;
+  LocalId count_ = 0;
+  std::unordered_map<LocalId, SpecialCell> special_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The cut elements of the grid, made when they are first asked for.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/cells/cut_element.hpp"
+#include "core/cracks/crack_paths.hpp"
+#include "core/mesh/grid.hpp"
+
+namespace cdca {
+
+/// A straight bit of crack with the parts of elements on its two sides; grid coordinates.
+/// Inside an element both elements are the same; along a grid line they differ.
+struct CrackFace {
+  Vec2 from{0, 0};
+  Vec2 to{0, 0};
+  int crack = 0;
+  int segment = 0;
+  GridIndex plus_element;   ///< on the left of from -> to
+  GridIndex minus_element;
+  int plus_part = 0;
+  int minus_part = 0;
+};
+
+class ElementCuts {
+ public:
+  ElementCuts() = default;
+  ElementCuts(const StructuredGrid& grid, CrackPaths paths)
+      : grid_(grid), paths_(std::move(paths)) {}
+
+  const StructuredGrid& grid() const { return grid_; }
+  const CrackPaths& paths() const { return paths_; }
+
+  /// The cut element, or null when no crack touches the element: then it has one part, number 0.
+  const CutElement* find(GridIndex element) const;
+  int parts(GridIndex element) const;
+  /// The portions of one side, whether the element is cut or not.
+  const std::vector<SidePortion>& side(GridIndex element, std::size_t side) const;
+  /// The part that holds a place given in grid coordinates inside (or on the rim of) the element.
+  int part_at(GridIndex element, const Vec2& at) const;
+
+  /// Faces inside the element, and those along its right and upper side.
+  std::vector<CrackFace> faces_of(GridIndex element) const;
+  /// Elements that cracks touch among a list of all elements that a rank holds.
+  bool touched(GridIndex element) const { return !paths_.steps_in(element).empty(); }
+
+ private:
+  void add_side_faces(GridIndex element, std::vector<CrackFace>& faces) const;
+
+  StructuredGrid grid_;
+  CrackPaths paths_;
+  mutable std::unordered_map<GlobalId, CutElement> cache_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/near_tip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cdca {
+
+namespace {
+constexpr double pi = std::numbers::pi;
+constexpr double largest_bend = 110.0 / 180.0 * pi;
+}  // namespace
+
+NearTipValues near_tip_functions(const TipPolar& p) {
+  const double root = std::sqrt(p.r), s = std::sin(p.theta), c = std::cos(p.theta);
+  const double s2 = std::sin(p.theta / 2), c2 = std::cos(p.theta / 2);
+  const std::array<double, 4> angular{s2, c2, s * s2, s * c2};
+  const std::array<double, 4> derivative{c2 / 2, -s2 / 2, c * s2 + s * c2 / 2, c * c2 - s * s2 / 2};
+  NearTipValues f;
+  for (std::size_t l = 0; l < 4; ++l) {
+    f.value[l] = root * angular[l];
+    f.gradient[l] = p.r > 0 ? Vec2(angular[l] / (2 * root) * p.grad_r +
+                                   root * derivative[l] * p.grad_theta)
+                            : Vec2(0, 0);
+  }
+  return f;
+}
+
+TipFrame::TipFrame(std::vector<Vec2> path, bool end_is_open) : path_(std::move(path)) {
+  tangent_ = (path_[0] - path_[1]).normalized();
+  straight_ = (path_[0] - path_[1]).norm();
+  radius_.push_back(0.0);
+  valid_ = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < path_.size(); ++k) {
+    radius_.push_back((path_[k] - path_[0]).norm());
+    // the first place where the distance stops growing, or the path leaves the sector
+    const Vec2 d = path_[k] - path_[k - 1], out = path_[k - 1] - path_[0];
+    const Vec2 back = path_[k] - path_[0];
+    const double angle = std::atan2(cross(-tangent_, back), -tangent_.dot(back));
+    if (k > 1 && (out.dot(d) <= 0.0 || std::abs(angle) > largest_bend)) {
+      valid_ = radius_[k - 1];
+      path_.resize(k);
+      radius_.resize(k);
+      return;
+    }
+  }
+  if (end_is_open) valid_ = radius_.back();
+}
+
+Vec2 TipFrame::local(const Vec2& x) const {
+  const Vec2 d = x - tip();
+  return {d.dot(tangent_), cross(tangent_, d)};
+}
+
+TipFrame::Bend TipFrame::bend(double r) const {
+  if (r <= radius_[1] || path_.size() == 2) return {0.0, 0.0};
+  std::size_t k = 1;
+  while (k + 2 < radius_.size() && radius_[k + 1] < r) ++k;
+  // the last segment is prolonged; r^2 = |a|^2 + 2 s a.d + s^2
+  const Vec2 a = path_[k] - path_[0], d = (path_[k + 1] - path_[k]).normalized();
+  const double ad = a.dot(d);
+  const double s = -ad + std::sqrt(std::max(0.0, ad * ad + r * r - a.squaredNorm()));
+  const Vec2 p = a + s * d;
+  // d angle / ds = p x d / r^2 and dr / ds = p.d / r
+  return {std::atan2(cross(-tangent_, p), -tangent_.dot(p)),
+          cross(p, d) / (r * std::max(p.dot(d), 1e-3 * r))};
+}
+
+TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
+  const Vec2 d = local(x);
+  TipPolar polar;
+  polar.r = d.norm();
+  if (polar.r == 0.0) return polar;
+  const Bend b = bend(polar.r);
+  double g = std::atan2(d.y(), d.x()) - b.angle;
+  if (g > pi) g -= 2 * pi;
+  if (g < -pi) g += 2 * pi;
+  // on a face rounding may pick the wrong side of the cut
+  if (side == FaceSide::plus && g < 0) g = std::abs(g) > pi / 2 ? pi : g;
+  if (side == FaceSide::minus && g > 0) g = std::abs(g) > pi / 2 ? -pi : g;
+  polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
+  const Vec2 radial = (x - tip()) / polar.r;
+  const double by_g = 1 - b.angle * std::sin(g) / 2, by_bend = (1 + std::cos(g)) / 2;
+  polar.grad_r = radial;
+  polar.grad_theta = by_g / polar.r * turned_left(radial) + b.slope * (by_bend - by_g) * radial;
+  return polar;
+}
+
+}  // namespace cdca

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The near-tip functions of Eq. 5, in polar coordinates that follow the bent crack.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace cdca {
+
+/// Side of the crack for points on it: they belong to either face.
+enum class FaceSide { minus = -1, none = 0, plus = 1 };
+
+/// Polar coordinates of a place as seen from a tip. The angle is measured from the tip's tangent
+/// and is +pi and -pi on the faces of the crack, however the crack bends behind its tip.
+struct TipPolar {
+  double r = 0.0;      ///< m
+  double theta = 0.0;  ///< rad
+  Vec2 grad_r{0, 0};
+  Vec2 grad_theta{0, 0};  ///< 1/m
+};
+
+struct NearTipValues {
+  std::array<double, 4> value;   ///< m^1/2
+  std::array<Vec2, 4> gradient;  ///< m^-1/2
+};
+
+/// sqrt(r) times sin(t/2), cos(t/2), sin(t) sin(t/2), sin(t) cos(t/2) (Eq. 5).
+NearTipValues near_tip_functions(const TipPolar& polar);
+
+/// The frame of one tip.
+///
+/// The crack behind the tip is seen at distance r under the angle pi + bend(r) from the tangent.
+/// With g = alpha - bend(r) in (-pi, pi), the angle used is theta = g + bend (1 + cos g) / 2: smooth
+/// in the uncracked material, exactly +-pi on the faces, and the plain angle for a straight crack.
+class TipFrame {
+ public:
+  TipFrame() = default;
+  /// path: from the tip backwards along the crack, m. end_is_open: beyond the far end of the path
+  /// there is uncracked material.
+  TipFrame(std::vector<Vec2> path, bool end_is_open);
+
+  const Vec2& tip() const { return path_.front(); }
+  const Vec2& tangent() const { return tangent_; }
+  /// Length of the straight segment at the tip, m.
+  double straight_length() const { return straight_; }
+  /// Up to this distance from the tip the functions open the crack and nothing else, m. It ends
+  /// where the crack turns back towards its tip, bends by more than 110 degrees, or stops.
+  double valid_radius() const { return valid_; }
+
+  /// x in m. `side` says on which face a point of the crack lies; plus is on the left of the way
+  /// towards the tip.
+  TipPolar polar(const Vec2& x, FaceSide side = FaceSide::none) const;
+  /// Unrolled for a straight crack: a point's coordinates along and across the tangent, m.
+  Vec2 local(const Vec2& x) const;
+
+ private:
+  struct Bend {
+    double angle;  ///< rad
+    double slope;  ///< d angle / d r, rad/m
+  };
+  Bend bend(double r) const;
+
+  std::vector<Vec2> path_;
+  std::vector<double> radius_;  ///< distance of every path point from the tip
+  Vec2 tangent_{1, 0};
+  double straight_ = 0.0;
+  double valid_ = 0.0;
+};
+
+}  // namespace cdca

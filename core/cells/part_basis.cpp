@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/part_basis.hpp"
+
+#include <algorithm>
+
+#include "core/mesh/shape_functions.hpp"
+
+namespace cdca {
+
+PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
+    : corner_(context.mesh.grid().node_position({element.i, element.j})),
+      size_(context.mesh.grid().element_size()) {
+  const StructuredGrid& grid = context.mesh.grid();
+  const auto nodes = context.mesh.element_nodes(element);
+  const auto corners = grid.corners(element);
+  const GlobalId id = grid.element(element);
+  for (std::size_t a = 0; a < 4; ++a) {
+    pieces_[a] = -1;
+    if (nodes[a] < 0) continue;
+    const int piece = context.unknowns.piece(nodes[a], (a + 2) % 4, part);
+    pieces_[a] = context.unknowns.of_piece(nodes[a], piece);
+    for (const TipUnknowns& tip : context.unknowns.tips(nodes[a])) {
+      const TipZone& zone = context.zones[std::size_t(tip.zone)];
+      if (!zone.acts_on(id, part)) continue;
+      const auto at_node = near_tip_functions(zone.frame.polar(grid.node_position(corners[a])));
+      tips_.push_back({a, &zone, tip.first, at_node.value});
+    }
+  }
+  // one zone after the other, so that its functions are evaluated once a point
+  std::stable_sort(tips_.begin(), tips_.end(), [](const TipShape& s, const TipShape& t) {
+    return s.zone->crack != t.zone->crack ? s.zone->crack < t.zone->crack
+                                          : s.zone->end < t.zone->end;
+  });
+}
+
+Vec2 PartBasis::position(const Vec2& p) const { return corner_ + p.cwiseProduct(size_); }
+
+std::vector<LocalId> PartBasis::unknowns() const {
+  std::vector<LocalId> first;
+  for (const LocalId u : pieces_) {
+    if (u >= 0) first.push_back(u);
+  }
+  for (const TipShape& tip : tips_) {
+    for (LocalId l = 0; l < 4; ++l) first.push_back(tip.first + 2 * l);
+  }
+  return first;
+}
+
+void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
+                         const Vec2* inside) const {
+  functions.clear();
+  const ShapeValues n = shape_functions(p, size_);
+  for (std::size_t a = 0; a < 4; ++a) {
+    if (pieces_[a] >= 0) functions.push_back({pieces_[a], n.value[a], n.gradient[a]});
+  }
+  NearTipValues f{};
+  const TipZone* known = nullptr;
+  for (const TipShape& tip : tips_) {
+    if (tip.zone != known) {
+      known = tip.zone;
+      FaceSide side = FaceSide::none;
+      if (inside) {
+        const bool above = known->frame.polar(position(*inside)).theta > 0;
+        side = above ? FaceSide::plus : FaceSide::minus;
+      }
+      f = near_tip_functions(known->frame.polar(position(p), side));
+    }
+    for (std::size_t l = 0; l < 4; ++l) {
+      const double shifted = f.value[l] - tip.at_node[l];
+      functions.push_back({tip.first + 2 * LocalId(l), n.value[tip.corner] * shifted,
+                           shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l]});
+    }
+  }
+}
+
+std::vector<Vec2> PartBasis::tip_places() const {
+  std::vector<Vec2> places;
+  const TipZone* known = nullptr;
+  for (const TipShape& tip : tips_) {
+    if (tip.zone == known) continue;
+    known = tip.zone;
+    places.push_back((known->frame.tip() - corner_).cwiseQuotient(size_));
+  }
+  return places;
+}
+
+FieldValue field_value(const std::vector<BasisFunction>& functions, std::span<const double> state) {
+  FieldValue value;
+  for (const BasisFunction& f : functions) {
+    const Vec2 v(state[std::size_t(f.unknown)], state[std::size_t(f.unknown) + 1]);
+    value.displacement += f.value * v;
+    value.gradient += v * f.gradient.transpose();
+  }
+  return value;
+}
+
+}  // namespace cdca

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The displacement functions that act on one part of one element.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/cells/cell_unknowns.hpp"
+#include "core/cells/element_cuts.hpp"
+#include "core/cells/tip_zone.hpp"
+#include "core/mesh/local_mesh.hpp"
+
+namespace cdca {
+
+/// One scalar function; it carries the unknowns `unknown` (x) and `unknown + 1` (y).
+struct BasisFunction {
+  LocalId unknown = 0;
+  double value = 0.0;
+  Vec2 gradient{0, 0};  ///< 1/m
+};
+
+/// What the basis needs to know; borrowed.
+struct BasisContext {
+  const LocalMesh& mesh;
+  const ElementCuts& cuts;
+  const std::vector<TipZone>& zones;
+  const CellUnknowns& unknowns;
+};
+
+/// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq. 4-5,
+/// in the basis of pieces).
+class PartBasis {
+ public:
+  PartBasis(const BasisContext& context, GridIndex element, int part);
+
+  bool has_tip_functions() const { return !tips_.empty(); }
+  /// First unknown of every function, in the order in which evaluate() lists them.
+  std::vector<LocalId> unknowns() const;
+  /// p: inside the element, [0, 1]. For a point on a crack, `inside` is a place near it that tells
+  /// which face is meant. Functions of cells that this rank does not hold are left out; they vanish
+  /// on the side that the element shares with one of this rank's.
+  void evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
+                const Vec2* inside = nullptr) const;
+  /// Tips whose functions act here, inside-the-element coordinates.
+  std::vector<Vec2> tip_places() const;
+
+ private:
+  struct TipShape {
+    std::size_t corner;
+    const TipZone* zone;
+    LocalId first;
+    std::array<double, 4> at_node;
+  };
+  Vec2 position(const Vec2& p) const;
+
+  Vec2 corner_;  ///< m
+  Vec2 size_;    ///< m
+  std::array<LocalId, 4> pieces_;  ///< -1: not held by this rank
+  std::vector<TipShape> tips_;
+};
+
+/// Displacement and its gradient at a place.
+struct FieldValue {
+  Vec2 displacement{0, 0};                                  ///< m
+  Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();  ///< gradient(i, j) = d u_i / d x_j
+};
+
+/// Sums the functions with the values in `state`.
+FieldValue field_value(const std::vector<BasisFunction>& functions, std::span<const double> state);
+
+}  // namespace cdca

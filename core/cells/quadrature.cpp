@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/quadrature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/cells/gauss.hpp"
+
+namespace cdca {
+
+namespace {
+
+using Triangle = std::array<Vec2, 3>;
+
+const std::vector<Vec2> unit_square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+constexpr double same_place = 1e-7;
+
+double twice_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+double longest_side(const Triangle& t) {
+  return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+}
+
+double distance(const Triangle& t, const Vec2& p) {
+  bool inside = true;
+  double nearest = 1e300;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 &a = t[k], &b = t[(k + 1) % 3];
+    inside = inside && cross(b - a, p - a) >= 0;
+    nearest = std::min(nearest, (a + nearest_fraction(a, b, p) * (b - a) - p).norm());
+  }
+  return inside ? 0.0 : nearest;
+}
+
+std::vector<std::vector<Vec2>> loops_of(const CutElement* cut, int part) {
+  if (!cut) return {unit_square};
+  std::vector<std::vector<Vec2>> loops;
+  for (const ElementPolygon& polygon : cut->polygons) {
+    if (polygon.part == part) loops.push_back(polygon.loop);
+  }
+  return loops;
+}
+
+/// Gauss points of the unit square folded onto the triangle.
+void add_folded(const Triangle& t, int n, std::vector<QuadraturePoint>& points) {
+  const double area = twice_area(t);
+  for (const GaussPoint& u : gauss_points(n)) {
+    for (const GaussPoint& v : gauss_points(n)) {
+      points.push_back({t[0] + u.x * ((1 - v.x) * (t[1] - t[0]) + v.x * (t[2] - t[0])),
+                        u.weight * v.weight * u.x * area});
+    }
+  }
+}
+
+/// The tip is corner 0; the distance is s^2, so that square roots become polynomials.
+void add_collapsed(const Triangle& t, std::vector<QuadraturePoint>& points) {
+  const Vec2 a = t[1] - t[0], b = t[2] - t[0];
+  const double angle = std::abs(std::atan2(cross(a, b), a.dot(b)));
+  const bool uneven = std::max(a.norm(), b.norm()) > 3 * std::min(a.norm(), b.norm());
+  if (angle > 0.3 * std::numbers::pi || (uneven && (a - b).norm() > 1.5 * std::min(a.norm(), b.norm()))) {
+    // halve the angle, not the side: flat triangles would keep one wide half
+    const double split = a.norm() / (a.norm() + b.norm());
+    const Vec2 middle = t[1] + split * (t[2] - t[1]);
+    add_collapsed({t[0], t[1], middle}, points);
+    add_collapsed({t[0], middle, t[2]}, points);
+    return;
+  }
+  const double area = twice_area(t);
+  for (const GaussPoint& s : gauss_points(8)) {
+    for (const GaussPoint& v : gauss_points(12)) {
+      const double r = s.x * s.x;
+      points.push_back({t[0] + r * ((1 - v.x) * a + v.x * b), 2 * s.x * r * s.weight * v.weight * area});
+    }
+  }
+}
+
+int order_for(double size, double gap) { return gap > 6 * size ? 5 : gap > 3 * size ? 6 : 9; }
+
+void add_graded(const Triangle& t, const std::vector<Vec2>& tips, int depth,
+                std::vector<QuadraturePoint>& points) {
+  if (twice_area(t) <= 1e-16) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const Vec2& tip : tips) {
+      if ((t[k] - tip).norm() < same_place) {
+        add_collapsed({t[k], t[(k + 1) % 3], t[(k + 2) % 3]}, points);
+        return;
+      }
+    }
+  }
+  double gap = 1e300;
+  for (const Vec2& tip : tips) gap = std::min(gap, distance(t, tip));
+  const double size = longest_side(t);
+  if (gap >= size || depth == 0) {
+    add_folded(t, order_for(size, gap), points);
+    return;
+  }
+  std::size_t k = 0;
+  for (std::size_t l = 1; l < 3; ++l) {
+    if ((t[(l + 1) % 3] - t[l]).norm() > (t[(k + 1) % 3] - t[k]).norm()) k = l;
+  }
+  const Vec2 a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], m = 0.5 * (a + b);
+  add_graded({a, m, c}, tips, depth - 1, points);
+  add_graded({m, b, c}, tips, depth - 1, points);
+}
+
+bool whole_square(const CutElement* cut) { return !cut || cut->polygons.size() == 1; }
+
+std::vector<QuadraturePoint> square_points(int n) {
+  std::vector<QuadraturePoint> points;
+  for (const GaussPoint& u : gauss_points(n)) {
+    for (const GaussPoint& v : gauss_points(n)) {
+      points.push_back({Vec2(u.x, v.x), u.weight * v.weight});
+    }
+  }
+  return points;
+}
+
+/// Area in metres weighs directions alike for the choice of triangles near a tip.
+void undo_scale(std::vector<QuadraturePoint>& points, const Vec2& h) {
+  for (QuadraturePoint& q : points) {
+    q.at = q.at.cwiseQuotient(h);
+    q.weight /= h.prod();
+  }
+}
+
+bool is_ear(const std::vector<Vec2>& loop, std::size_t k) {
+  const std::size_t n = loop.size();
+  const Vec2 &a = loop[(k + n - 1) % n], &b = loop[k], &c = loop[(k + 1) % n];
+  if (cross(b - a, c - b) <= 0) return false;
+  for (const Vec2& p : loop) {
+    if (p == a || p == b || p == c) continue;
+    if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::array<Vec2, 3>> triangulate(std::vector<Vec2> loop, const Vec2* apex) {
+  std::vector<Triangle> triangles;
+  if (apex) {
+    std::size_t first = 0;
+    while (first < loop.size() && (loop[first] - *apex).norm() >= same_place) ++first;
+    if (first < loop.size()) {
+      std::rotate(loop.begin(), loop.begin() + std::ptrdiff_t(first), loop.end());
+      bool fan = true;
+      for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+        const Triangle t{loop[0], loop[k], loop[k + 1]};
+        fan = fan && twice_area(t) >= -1e-14;
+        triangles.push_back(t);
+      }
+      if (fan) return triangles;
+      triangles.clear();
+    }
+  }
+  while (loop.size() > 3) {
+    // the roundest ear first; straight corners go last and cost nothing
+    std::size_t best = loop.size();
+    double widest = -1.0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if (!is_ear(loop, k)) continue;
+      const std::size_t n = loop.size();
+      const Triangle t{loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]};
+      const double shape = twice_area(t) / (longest_side(t) * longest_side(t));
+      if (shape > widest) widest = shape, best = k;
+    }
+    if (best == loop.size()) break;
+    const std::size_t n = loop.size();
+    triangles.push_back({loop[(best + n - 1) % n], loop[best], loop[(best + 1) % n]});
+    loop.erase(loop.begin() + std::ptrdiff_t(best));
+  }
+  if (loop.size() == 3) triangles.push_back({loop[0], loop[1], loop[2]});
+  return triangles;
+}
+
+std::vector<QuadraturePoint> plain_quadrature(const CutElement* cut, int part) {
+  if (whole_square(cut)) return square_points(2);
+  std::vector<QuadraturePoint> points;
+  for (const auto& loop : loops_of(cut, part)) {
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+      const Triangle t{loop[0], loop[k], loop[k + 1]};
+      const double weight = twice_area(t) / 6;
+      for (std::size_t l = 0; l < 3; ++l) points.push_back({0.5 * (t[l] + t[(l + 1) % 3]), weight});
+    }
+  }
+  return points;
+}
+
+std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
+                                            const std::vector<Vec2>& tips, const Vec2& h) {
+  std::vector<Vec2> scaled;
+  for (const Vec2& tip : tips) scaled.push_back(tip.cwiseProduct(h));
+  double nearest = 1e300;
+  const Vec2 centre = 0.5 * h;
+  for (const Vec2& tip : scaled) nearest = std::min(nearest, (tip - centre).norm());
+  if (whole_square(cut) && nearest > 2 * h.maxCoeff()) {
+    return square_points(nearest > 5 * h.maxCoeff() ? 5 : 8);
+  }
+  std::vector<QuadraturePoint> points;
+  for (auto loop : loops_of(cut, part)) {
+    for (Vec2& p : loop) p = p.cwiseProduct(h);
+    const Vec2* apex = nullptr;
+    for (const Vec2& tip : scaled) {
+      for (const Vec2& p : loop) {
+        if ((p - tip).norm() < same_place * h.maxCoeff()) apex = &tip;
+      }
+    }
+    // sizes are compared with h = 1 for absolute limits inside
+    const double unit = h.maxCoeff();
+    for (Vec2& p : loop) p /= unit;
+    std::vector<Vec2> near;
+    for (const Vec2& tip : scaled) near.push_back(tip / unit);
+    const Vec2 apex_place = apex ? Vec2(*apex / unit) : Vec2(0, 0);
+    for (const Triangle& t : triangulate(loop, apex ? &apex_place : nullptr)) {
+      add_graded(t, near, 40, points);
+    }
+  }
+  undo_scale(points, h / h.maxCoeff());
+  return points;
+}
+
+std::vector<QuadraturePoint> smooth_quadrature(const CutElement* cut, int part, int n) {
+  if (whole_square(cut)) return square_points(n);
+  std::vector<QuadraturePoint> points;
+  for (const auto& loop : loops_of(cut, part)) {
+    for (const Triangle& t : triangulate(loop)) {
+      if (twice_area(t) > 0) add_folded(t, n, points);
+    }
+  }
+  return points;
+}
+
+std::vector<QuadraturePoint> line_quadrature(const Vec2& from, const Vec2& to,
+                                             const std::vector<Vec2>& tips) {
+  std::vector<QuadraturePoint> points;
+  const double length = (to - from).norm();
+  const auto add = [&](auto&& self, double a, double b, int depth) -> void {
+    double gap = 1e300;
+    for (const Vec2& tip : tips) {
+      const double t = std::clamp((tip - from).dot(to - from) / (length * length), a, b);
+      gap = std::min(gap, (from + t * (to - from) - tip).norm());
+      const bool at_a = (from + a * (to - from) - tip).norm() < same_place;
+      const bool at_b = (from + b * (to - from) - tip).norm() < same_place;
+      if (at_a || at_b) {
+        for (const GaussPoint& g : gauss_points(12)) {
+          const double s = g.x * g.x;
+          points.push_back({from + (at_a ? a + s * (b - a) : b - s * (b - a)) * (to - from),
+                            2 * g.x * g.weight * (b - a)});
+        }
+        return;
+      }
+    }
+    if (gap >= (b - a) * length || depth == 0) {
+      for (const GaussPoint& g : gauss_points(10)) {
+        points.push_back({from + (a + g.x * (b - a)) * (to - from), g.weight * (b - a)});
+      }
+      return;
+    }
+    self(self, a, 0.5 * (a + b), depth - 1);
+    self(self, 0.5 * (a + b), b, depth - 1);
+  };
+  add(add, 0.0, 1.0, 40);
+  return points;
+}
+
+}  // namespace cdca

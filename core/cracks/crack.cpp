@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cracks/crack.hpp"
+
+#include <algorithm>
+
+namespace cdca {
+
+const char* name_of(TipState state) {
+  switch (state) {
+    case TipState::active: return "active";
+    case TipState::boundary: return "boundary";
+    case TipState::connected: return "connected";
+    case TipState::coalesced: return "coalesced";
+  }
+  return "?";
+}
+
+double Crack::length() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < segments(); ++k) sum += (points[k + 1] - points[k]).norm();
+  return sum;
+}
+
+Vec2 Crack::end_tangent(int end) const {
+  const std::size_t n = points.size();
+  return (end == 0 ? points[0] - points[1] : points[n - 1] - points[n - 2]).normalized();
+}
+
+std::vector<Vec2> Crack::seen_from(int end) const {
+  std::vector<Vec2> path = points;
+  if (end == 1) std::reverse(path.begin(), path.end());
+  return path;
+}
+
+double nearest_fraction(const Vec2& a, const Vec2& b, const Vec2& x) {
+  const Vec2 d = b - a;
+  return std::clamp((x - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+}
+
+}  // namespace cdca

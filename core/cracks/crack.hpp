@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A crack: a polyline with two ends, each of them a tip as long as it can still grow.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace cdca {
+
+/// What has become of an end of a crack (sections 4.1 and 4.2 of the paper).
+enum class TipState : std::int32_t {
+  active,     ///< a tip: it has near-tip functions and may grow
+  boundary,   ///< ends on the rim of the body (4.1)
+  connected,  ///< met the end of another crack (4.2.1)
+  coalesced,  ///< ends on the face of another crack (4.2.2)
+};
+
+const char* name_of(TipState state);
+
+struct CrackEnd {
+  TipState state = TipState::active;
+  int partner = -1;  ///< number of the crack that was met, or -1
+};
+
+struct Crack {
+  std::string name;
+  std::vector<Vec2> points;  ///< m, from end 0 to end 1
+  std::vector<int> age;      ///< load step in which each segment appeared; 0 for initial ones
+  std::array<CrackEnd, 2> ends;
+
+  std::size_t segments() const { return points.size() - 1; }
+  double length() const;
+  /// Position of end 0 or 1.
+  const Vec2& end_point(int end) const { return end == 0 ? points.front() : points.back(); }
+  /// Unit vector out of the crack at its end.
+  Vec2 end_tangent(int end) const;
+  /// The polyline seen from an end: its position first, then backwards along the crack.
+  std::vector<Vec2> seen_from(int end) const;
+};
+
+/// The point of segment [a, b] nearest to x, as a fraction of the segment.
+double nearest_fraction(const Vec2& a, const Vec2& b, const Vec2& x);
+
+}  // namespace cdca

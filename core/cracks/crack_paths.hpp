@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The cracks as the cells see them: chopped by the grid lines into steps that stay in one element.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/cracks/crack.hpp"
+#include "core/mesh/grid.hpp"
+
+namespace cdca {
+
+/// A straight bit of a crack inside one element, or along one element edge; grid coordinates.
+struct PathStep {
+  Vec2 from{0, 0};
+  Vec2 to{0, 0};
+  int crack = 0;
+  int segment = 0;  ///< of the crack's polyline
+};
+
+/// An active tip, in grid coordinates.
+struct PathTip {
+  int crack = 0;
+  int end = 0;
+  Vec2 at{0, 0};
+};
+
+/// All cracks laid over the grid.
+///
+/// Points of cracks nearer to a grid line than `snap` element sizes are moved onto it, and a path
+/// that passes a node nearer than that runs through the node. So a crack either misses a node
+/// clearly or meets it exactly, and each place is judged alike from all elements round it. Cracks
+/// that cross or touch share a point there.
+class CrackPaths {
+ public:
+  static constexpr double snap = 1e-6;
+
+  CrackPaths() = default;
+  CrackPaths(const StructuredGrid& grid, const std::vector<Crack>& cracks);
+
+  const std::vector<PathStep>& steps() const { return steps_; }
+  /// The steps inside an element or along its edges; empty for most elements.
+  const std::vector<int>& steps_in(GridIndex element) const;
+  const std::vector<PathTip>& tips() const { return tips_; }
+
+ private:
+  void add_step(PathStep step);
+
+  StructuredGrid grid_;
+  std::vector<PathStep> steps_;
+  std::unordered_map<GlobalId, std::vector<int>> by_element_;
+  std::vector<PathTip> tips_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// All cracks of the body, the same on every rank.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/cracks/crack.hpp"
+
+namespace cdca {
+
+enum class EventKind : std::int32_t { boundary, connection, coalescence, crossing };
+
+const char* name_of(EventKind kind);
+
+/// Something that happened to a crack.
+struct Event {
+  int step = 0;
+  int cycle = 0;
+  EventKind kind = EventKind::boundary;
+  int crack = -1;
+  int end = -1;
+  int partner = -1;
+  Vec2 at{0, 0};  ///< m
+};
+
+/// The rectangle that bounds the body, m.
+struct Rectangle {
+  Vec2 lower{0, 0};
+  Vec2 upper{0, 0};
+};
+
+/// The replicated crack registry. Every rank applies the same changes from the same numbers, so
+/// the copies stay bitwise equal; hash() shows whether they did.
+class CrackRegistry {
+ public:
+  /// Adds an initial crack with two active ends. points: m, at least two.
+  void add(std::string name, std::vector<Vec2> points);
+  /// Finds where initial cracks end on the rim, on the ends or on the faces of other cracks, and
+  /// where they cross (4.1-4.2 at load step 0). Ends nearer than `tolerance` (m) are moved onto
+  /// what they touch.
+  void resolve_initial_meetings(const Rectangle& body, double tolerance);
+
+  const std::vector<Crack>& cracks() const { return cracks_; }
+  const std::vector<Event>& events() const { return events_; }
+  int active_tips() const;
+  /// Total length of all cracks, m.
+  double length() const;
+  /// Of every bit that decides how the run goes on.
+  std::uint64_t hash() const;
+
+ private:
+  bool end_on_rim(std::size_t crack, int end, const Rectangle& body, double tolerance);
+  bool end_on_end(std::size_t crack, int end, double tolerance);
+  bool end_on_face(std::size_t crack, int end, double tolerance);
+  void find_crossings();
+
+  std::vector<Crack> cracks_;
+  std::vector<Event> events_;
+};
+
+/// Connected groups of cracks, and whether one of them reaches from side to side.
+struct CrackNetwork {
+  int clusters = 0;
+  double largest = 0.0;  ///< m
+  bool spans_x = false;
+  bool spans_y = false;
+};
+
+/// Cracks that touch within `tolerance` (m) belong to one cluster.
+CrackNetwork network_of(const std::vector<Crack>& cracks, const Rectangle& body, double tolerance);
+
+}  // namespace cdca

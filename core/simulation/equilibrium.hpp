@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Equilibrium of a model under the loads of one load factor.
+#pragma once
+
+#include "core/simulation/model.hpp"
+#include "core/solver/equilibrium_solver.hpp"
+
+namespace cdca {
+
+std::unique_ptr<EquilibriumSolver> make_solver(const SolverSpec& spec);
+
+struct Equilibrium {
+  SolverReport solver;
+  /// Force of the supports of every boundary block on the body, N per metre of thickness.
+  std::vector<Vec2> reactions;
+  double strain_energy = 0.0;  ///< J per metre of thickness
+};
+
+/// Starts from the model's state and leaves the new one there, ghosts included. Throws SolveError
+/// when the solver does not converge. Collective.
+Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor);
+
+}  // namespace cdca

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The state of a run: body, cracks, cells and displacements. Everyone else borrows from it.
+#pragma once
+
+#include <memory>
+
+#include "core/cells/cell_stiffness.hpp"
+#include "core/cracks/crack_registry.hpp"
+#include "core/mechanics/external_forces.hpp"
+#include "core/mechanics/material.hpp"
+#include "core/mechanics/supports.hpp"
+#include "core/simulation/case_spec.hpp"
+
+namespace cdca {
+
+class Model {
+ public:
+  /// Cracks, partition, this rank's part of the grid, pieces and unknowns; no stiffness yet.
+  /// Throws InputError for cracks that the grid cannot hold and for bodies that nothing holds.
+  /// Collective.
+  Model(const CaseSpec& spec, Communicator& communicator, const Partitioner& partitioner);
+  /// As above with a given partition of the cells.
+  Model(const CaseSpec& spec, Communicator& communicator, const BlockPartition& partition);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  /// Cell stiffness of the cracks as they are now. Collective.
+  void build_stiffness();
+
+  const CaseSpec& spec() const { return spec_; }
+  Communicator& communicator() const { return communicator_; }
+  const StructuredGrid& grid() const { return grid_; }
+  const LocalMesh& mesh() const { return mesh_; }
+  const CrackRegistry& registry() const { return registry_; }
+  const Material& material() const { return material_; }
+  const Supports& supports() const { return supports_; }
+  const CellUnknowns& unknowns() const { return unknowns_; }
+  const ElementCuts& cuts() const { return cuts_; }
+  const std::vector<TipZone>& zones() const { return zones_; }
+  const CellStiffness& stiffness() const { return *stiffness_; }
+  BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
+  Rectangle body() const { return {grid_.origin(), grid_.origin() + grid_.size()}; }
+  /// Cracks that come nearer than this touch, m.
+  double touch_distance() const { return 1e-3 * grid_.smallest_side(); }
+
+  /// The loads at load factor s.
+  ExternalLoads loads(double s) const;
+  /// Displacements (and near-tip coefficients) of own cells and ghosts, m.
+  std::vector<double>& state() { return state_; }
+  const std::vector<double>& state() const { return state_; }
+  /// Displacement and its gradient at a place x (m) of an element that this rank holds.
+  FieldValue field_at(const Vec2& x) const;
+
+ private:
+  void place_cracks();
+  void build_cells(const BlockPartition& partition);
+  void refuse_hidden_cracks() const;
+  void refuse_loose_bodies() const;
+
+  const CaseSpec& spec_;
+  Communicator& communicator_;
+  StructuredGrid grid_;
+  Material material_;
+  CrackRegistry registry_;
+  LocalMesh mesh_;
+  ElementCuts cuts_;
+  std::vector<TipZone> zones_;
+  CellUnknowns unknowns_;
+  Supports supports_;
+  std::unique_ptr<CellStiffness> stiffness_;
+  std::vector<double> state_;
+};
+
+}  // namespace cdca

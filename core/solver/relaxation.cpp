@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/solver/equilibrium_solver.hpp"
+
+namespace cdca {
+
+namespace {
+
+class Relaxation final : public EquilibriumSolver {
+ public:
+  explicit Relaxation(const SolverOptions& options) : options_(options) {}
+
+  SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
+                     double scale) const override {
+    std::vector<double> residual(std::size_t(system.count()), 0.0);
+    system.apply(u, residual);
+    for (std::size_t k = 0; k < std::size_t(system.owned()); ++k) residual[k] = forces[k] - residual[k];
+    system.clear_held(residual);
+    SolverReport report;
+    const int limit = options_.max_iterations > 0 ? options_.max_iterations : 1000000;
+    for (;; ++report.iterations) {
+      report.residual = std::sqrt(system.dot(residual, residual)) / scale;
+      report.converged = report.residual <= options_.tolerance;
+      if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
+      system.sweep(SweepDirection::forward, options_.over_relaxation, residual, u);
+      system.return_forces(residual);
+      system.clear_held(residual);
+    }
+    return report;
+  }
+
+ private:
+  SolverOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<EquilibriumSolver> make_relaxation(const SolverOptions& options) {
+  return std::make_unique<Relaxation>(options);
+}
+
+}  // namespace cdca

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "world.hpp"
+
+namespace cdca::testing {
+
+Communicator& world() {
+  static SerialCommunicator communicator;
+  return communicator;
+}
+
+Partitioner world_partitioner() {
+  return [](const PartitionGraph& graph, int) { return std::vector<int>(graph.weights.size(), 0); };
+}
+
+}  // namespace cdca::testing
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
