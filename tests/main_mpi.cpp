@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <memory>
-
 #include "parallel/metis_partition.hpp"
 #include "parallel/mpi_communicator.hpp"
 #include "world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
 
 namespace {
 std::unique_ptr<cdca::MpiCommunicator> communicator;

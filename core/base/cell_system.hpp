@@ -2,10 +2,10 @@
 /// What a solver may know: cells, forces and moves. No crack, no material, no rank.
 #pragma once
 
-#include <span>
-
 #include "core/base/communicator.hpp"
 #include "core/base/types.hpp"
+
+#include <span>
 
 namespace cdca {
 

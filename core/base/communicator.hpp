@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// How ranks talk. The serial version is complete, so that everything above it runs and is tested without MPI.
+/// How ranks talk. The serial version is complete, so that everything above it runs and is tested
+/// without MPI.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +40,8 @@ class Communicator {
   /// As exchange() for values whose counts both sides know: rank neighbours[k] gets
   /// outgoing[send_offsets[k]..send_offsets[k+1]) and fills incoming[receive_offsets[k]..).
   virtual void exchange_values(std::span<const int> neighbours, std::span<const double> outgoing,
-                               std::span<const std::size_t> send_offsets, std::span<double> incoming,
+                               std::span<const std::size_t> send_offsets,
+                               std::span<double> incoming,
                                std::span<const std::size_t> receive_offsets) = 0;
   virtual void barrier() = 0;
 

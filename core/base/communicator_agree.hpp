@@ -2,12 +2,12 @@
 /// The body of Communicator::agree, and how records become bytes.
 #pragma once
 
+#include "core/base/communicator.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
 #include <vector>
-
-#include "core/base/communicator.hpp"
 
 namespace cdca {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The three ways in which a run can fail; the driver turns each into an exit status and one clear message.
+/// The three ways in which a run can fail; the driver turns each into an exit status and one clear
+/// message.
 #pragma once
 
 #include <stdexcept>

@@ -24,7 +24,8 @@ void Halo::add_forces(std::span<double> values) const {
   }
   communicator_->exchange_values(ranks_, ghost_buffer_, ghost_offsets_, owned_buffer_,
                                  owned_offsets_);
-  for (std::size_t k = 0; k < owned_.size(); ++k) values[std::size_t(owned_[k])] += owned_buffer_[k];
+  for (std::size_t k = 0; k < owned_.size(); ++k)
+    values[std::size_t(owned_[k])] += owned_buffer_[k];
 }
 
 void Halo::copy_state(std::span<double> values) const {

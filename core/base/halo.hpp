@@ -2,11 +2,11 @@
 /// The exchange of neighbour values along rank borders.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/base/communicator.hpp"
 #include "core/base/types.hpp"
+
+#include <span>
+#include <vector>
 
 namespace cdca {
 

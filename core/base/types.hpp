@@ -3,13 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstdint>
 
 namespace cdca {
 
 /// A point or a vector in the plane; metres unless a function says otherwise.
 using Vec2 = Eigen::Vector2d;
-/// A stress or a strain as (xx, yy, xy). Stress in Pa, tension positive; strain with the tensor's xy.
+/// A stress or a strain as (xx, yy, xy). Stress in Pa, tension positive; strain with the tensor's
+/// xy.
 using Voigt = Eigen::Vector3d;
 
 /// Number of a node or an element in the whole grid; the same on every rank.

@@ -2,6 +2,7 @@
 #include "core/cells/bodies.hpp"
 
 #include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -14,7 +15,8 @@ class UnionFind {
  public:
   explicit UnionFind(std::size_t n) : root_(n) { std::iota(root_.begin(), root_.end(), 0); }
   std::int64_t find(std::int64_t k) {
-    while (root_[std::size_t(k)] != k) k = root_[std::size_t(k)] = root_[std::size_t(root_[std::size_t(k)])];
+    while (root_[std::size_t(k)] != k)
+      k = root_[std::size_t(k)] = root_[std::size_t(root_[std::size_t(k)])];
     return k;
   }
   void join(std::int64_t a, std::int64_t b) {
@@ -29,7 +31,7 @@ class UnionFind {
 
 /// What one rank knows of one of its connected sets.
 struct LocalBody {
-  std::int64_t label = 0;   ///< number of the set over all ranks
+  std::int64_t label = 0;  ///< number of the set over all ranks
   std::int64_t pieces = 0;
   double x = 0.0, y = 0.0;  ///< m
   double rigid[6] = {};     ///< upper triangle of the supports' hold on (u_x, u_y, turn)
@@ -49,7 +51,8 @@ bool holds_all(const double r[6]) {
 
 void add_hold(const BasisContext& c, LocalId node, int component, LocalBody& body) {
   const Vec2 centre = c.mesh.grid().origin() + 0.5 * c.mesh.grid().size();
-  const Vec2 x = (c.mesh.grid().node_position(c.mesh.node(node)) - centre) / c.mesh.grid().size().norm();
+  const Vec2 x =
+      (c.mesh.grid().node_position(c.mesh.node(node)) - centre) / c.mesh.grid().size().norm();
   const Eigen::Vector3d row(component == 0, component == 1, component == 0 ? -x.y() : x.x());
   const Eigen::Matrix3d m = row * row.transpose();
   const double upper[6] = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
@@ -61,7 +64,8 @@ class PieceGraph {
  public:
   explicit PieceGraph(const BasisContext& c) : c_(c), sets_(0) {
     first_.push_back(0);
-    for (LocalId n = 0; n < c.mesh.node_count(); ++n) first_.push_back(first_.back() + c.unknowns.pieces(n));
+    for (LocalId n = 0; n < c.mesh.node_count(); ++n)
+      first_.push_back(first_.back() + c.unknowns.pieces(n));
     sets_ = UnionFind(std::size_t(first_.back()));
     for (LocalId k = 0; k < c.mesh.element_count(); ++k) {
       const GridIndex e = c.mesh.element(k);
@@ -93,7 +97,8 @@ std::map<std::int64_t, std::int64_t> label_sets(const BasisContext& c, PieceGrap
   std::vector<std::int64_t> counts(std::size_t(communicator.size()), 0);
   counts[std::size_t(communicator.rank())] = std::int64_t(label.size());
   communicator.sum(std::span<std::int64_t>(counts));
-  std::int64_t next = std::accumulate(counts.begin(), counts.begin() + communicator.rank(), std::int64_t(0));
+  std::int64_t next =
+      std::accumulate(counts.begin(), counts.begin() + communicator.rank(), std::int64_t(0));
   for (auto& [set, name] : label) name = next++;
   return label;
 }
@@ -162,9 +167,8 @@ std::vector<Body> find_bodies(const BasisContext& c, const std::vector<char>& he
     body.label = name;
     records.push_back(body);
   }
-  const auto all = communicator.agree(records, [](const LocalBody& a, const LocalBody& b) {
-    return a.label < b.label;
-  });
+  const auto all = communicator.agree(
+      records, [](const LocalBody& a, const LocalBody& b) { return a.label < b.label; });
   const auto same = across_borders(c, graph, label, communicator);
 
   std::int64_t last = 0;

@@ -8,9 +8,9 @@ namespace cdca {
 
 /// A connected set of pieces of cells.
 struct Body {
-  Vec2 at{0, 0};       ///< m, a place in it
+  Vec2 at{0, 0};  ///< m, a place in it
   std::int64_t pieces = 0;
-  bool held = false;   ///< its supports stop all three rigid motions
+  bool held = false;  ///< its supports stop all three rigid motions
 };
 
 /// All bodies of the grid, the same list on every rank. held: per unknown, as supports prescribe

@@ -2,13 +2,14 @@
 /// A cell with its own stiffness, or all cells of one tip zone, moved together.
 #pragma once
 
+#include "core/base/types.hpp"
+
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+
 #include <memory>
 #include <vector>
-
-#include "core/base/types.hpp"
 
 namespace cdca {
 

@@ -158,7 +158,8 @@ void CellStiffness::build_groups(const BasisContext& context, const std::vector<
     Eigen::SparseMatrix<double> matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
     matrix.setFromTriplets(triplets.begin(), triplets.end());
     for (const LocalId u : unknowns) place[std::size_t(u)] = -1;
-    if (!unknowns.empty()) groups_.emplace_back(nodes.front(), std::move(unknowns), std::move(rows), matrix);
+    if (!unknowns.empty())
+      groups_.emplace_back(nodes.front(), std::move(unknowns), std::move(rows), matrix);
   }
 }
 

@@ -3,20 +3,20 @@
 /// matrix exists.
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "core/base/cell_system.hpp"
 #include "core/base/halo.hpp"
 #include "core/cells/cell_group.hpp"
 #include "core/cells/part_stiffness.hpp"
 #include "core/cells/regular_runs.hpp"
 
+#include <memory>
+#include <vector>
+
 namespace cdca {
 
 /// Rows of own stiffness: for each listed unknown the unknowns that it is coupled to.
 struct StiffnessRows {
-  std::vector<LocalId> unknown;          ///< one per row, ascending
+  std::vector<LocalId> unknown;  ///< one per row, ascending
   std::vector<std::size_t> start{0};
   std::vector<LocalId> column;
   std::vector<double> value;

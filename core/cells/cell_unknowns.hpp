@@ -2,21 +2,21 @@
 /// Which unknowns each cell has, and where they stand in the vectors of the solver.
 #pragma once
 
-#include <span>
-#include <unordered_map>
-#include <vector>
-
 #include "core/base/communicator.hpp"
 #include "core/base/halo.hpp"
 #include "core/cells/pieces.hpp"
 #include "core/cells/tip_zone.hpp"
 #include "core/mesh/local_mesh.hpp"
 
+#include <span>
+#include <unordered_map>
+#include <vector>
+
 namespace cdca {
 
 /// Eight unknowns: the coefficients b of the four near-tip functions (Eq. 5), x and y of each.
 struct TipUnknowns {
-  int zone = 0;     ///< index of the tip zone
+  int zone = 0;  ///< index of the tip zone
   LocalId first = 0;
 };
 

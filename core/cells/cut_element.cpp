@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cut_element.hpp"
 
+#include "core/cells/planar_subdivision.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "core/cells/planar_subdivision.hpp"
 
 namespace cdca {
 
@@ -14,9 +14,7 @@ namespace {
 /// Joins polygons into parts.
 class Parts {
  public:
-  explicit Parts(std::size_t count) : root_(count) {
-    std::iota(root_.begin(), root_.end(), 0);
-  }
+  explicit Parts(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
   int find(int k) const {
     while (root_[std::size_t(k)] != k) k = root_[std::size_t(k)];
     return k;
@@ -36,7 +34,8 @@ double length_of(const PlanarSubdivision& plane, const SubdivisionEdge& e) {
 
 /// The polygons that gave up their side of the crack, and the step that bounded them.
 struct Absorbed {
-  std::vector<int> step;  ///< per polygon; -1: not absorbed
+  std::vector<int> step;     ///< per polygon; -1: not absorbed
+  std::vector<Vec2> beyond;  ///< per absorbed polygon: a place across the crack
 };
 
 void join_across_virtual_edges(const PlanarSubdivision& plane, Parts& parts) {
@@ -60,10 +59,11 @@ Absorbed absorb_slivers(const PlanarSubdivision& plane, Parts& parts) {
     const double x = area[std::size_t(a)], y = area[std::size_t(b)];
     return x != y ? x < y : a < b;
   });
-  Absorbed absorbed{std::vector<int>(count, -1)};
+  Absorbed absorbed{std::vector<int>(count, -1), std::vector<Vec2>(count, Vec2(0, 0))};
   for (const int sliver : order) {
     std::vector<double> common(count, 0.0);
     std::vector<int> step(count, -1);
+    std::vector<Vec2> beyond(count, Vec2(0, 0));
     for (const SubdivisionEdge& e : plane.edges()) {
       if (!is_crack(e) || e.left < 0 || e.right < 0) continue;
       const int l = parts.find(e.left), r = parts.find(e.right);
@@ -71,12 +71,17 @@ Absorbed absorb_slivers(const PlanarSubdivision& plane, Parts& parts) {
       const auto other = std::size_t(l == sliver ? r : l);
       common[other] += length_of(plane, e);
       step[other] = e.tag;
+      const Vec2 a = plane.vertices()[std::size_t(e.a)], b = plane.vertices()[std::size_t(e.b)];
+      const Vec2 n = turned_left(b - a).normalized();
+      beyond[other] = 0.5 * (a + b) + (l == sliver ? -1e-4 : 1e-4) * n;
     }
     const auto best = std::max_element(common.begin(), common.end());
     if (best == common.end() || *best <= 0.0) continue;
     const auto into = int(best - common.begin());
     for (std::size_t k = 0; k < count; ++k) {
-      if (parts.find(int(k)) == sliver) absorbed.step[k] = step[std::size_t(into)];
+      if (parts.find(int(k)) != sliver) continue;
+      absorbed.step[k] = step[std::size_t(into)];
+      absorbed.beyond[k] = beyond[std::size_t(into)];
     }
     parts.join(sliver, into);
   }
@@ -92,13 +97,14 @@ void add_sides(CutElement& cut, const PlanarSubdivision& plane, const std::vecto
     const std::size_t side = along_x ? (a.y() == 0 ? 0 : 2) : (a.x() == 0 ? 3 : 1);
     const int axis = along_x ? 0 : 1;
     const auto polygon = std::size_t(std::max(e.left, e.right));
-    SidePortion portion{std::min(a[axis], b[axis]), std::max(a[axis], b[axis]),
-                        part_of[polygon], false, -1};
+    SidePortion portion{std::min(a[axis], b[axis]), std::max(a[axis], b[axis]), part_of[polygon],
+                        false, -1};
     const double middle = 0.5 * (portion.t0 + portion.t1);
     for (const TaggedSegment& s : segments) {
       const int across = 1 - axis;
       if (s.from[across] != a[across] || s.to[across] != a[across]) continue;
-      if (std::min(s.from[axis], s.to[axis]) < middle && middle < std::max(s.from[axis], s.to[axis])) {
+      if (std::min(s.from[axis], s.to[axis]) < middle &&
+          middle < std::max(s.from[axis], s.to[axis])) {
         portion.closed = true;
         portion.step = s.tag;
       }
@@ -157,15 +163,16 @@ CutElement cut_element(const CrackPaths& paths, GridIndex element) {
     int& given = name[std::size_t(parts.find(int(k)))];
     if (given < 0) given = cut.parts++;
     part_of[k] = given;
-    cut.polygons.push_back({plane.loop(k), given, plane.area(k)});
+    cut.polygons.push_back({plane.loop(k), given, plane.area(k), std::nullopt});
+    if (absorbed.step[k] >= 0) cut.polygons.back().continues = absorbed.beyond[k];
   }
   add_sides(cut, plane, part_of, absorbed, segments);
   for (const SubdivisionEdge& e : plane.edges()) {
     if (!is_crack(e) || e.left < 0 || e.right < 0) continue;
     const int plus = part_of[std::size_t(e.left)], minus = part_of[std::size_t(e.right)];
     // faces that slivers gave up have moved to the element's sides
-    const bool given_up = absorbed.step[std::size_t(e.left)] >= 0 ||
-                          absorbed.step[std::size_t(e.right)] >= 0;
+    const bool given_up =
+        absorbed.step[std::size_t(e.left)] >= 0 || absorbed.step[std::size_t(e.right)] >= 0;
     if (plus == minus && given_up) continue;
     cut.faces.push_back({plane.vertices()[std::size_t(e.a)], plane.vertices()[std::size_t(e.b)],
                          e.tag, plus, minus});

@@ -2,14 +2,16 @@
 /// An element cut by cracks: its parts, its open and closed sides, and the crack faces inside it.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "core/cracks/crack_paths.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
 
 namespace cdca {
 
-/// A stretch of an element side, from t0 to t1 in the direction of growing x or y, in element sizes.
+/// A stretch of an element side, from t0 to t1 in the direction of growing x or y, in element
+/// sizes.
 struct SidePortion {
   double t0 = 0.0;
   double t1 = 1.0;
@@ -18,12 +20,13 @@ struct SidePortion {
   int step = -1;        ///< of the crack that closes it
 };
 
-/// A straight bit of crack between two parts of one element; the same part on both sides near a tip.
+/// A straight bit of crack between two parts of one element; the same part on both sides near a
+/// tip.
 struct InnerFace {
   Vec2 from{0, 0};  ///< inside the element, [0, 1]
   Vec2 to{0, 0};
-  int step = 0;     ///< of the crack paths
-  int plus = 0;     ///< part on the left of the crack's direction
+  int step = 0;  ///< of the crack paths
+  int plus = 0;  ///< part on the left of the crack's direction
   int minus = 0;
 };
 
@@ -31,7 +34,9 @@ struct InnerFace {
 struct ElementPolygon {
   std::vector<Vec2> loop;  ///< inside the element, counter-clockwise
   int part = 0;
-  double area = 0.0;       ///< in element areas
+  double area = 0.0;  ///< in element areas
+  /// Set for a sliver that has joined the part across the crack: a place close to it on that side.
+  std::optional<Vec2> continues;
 };
 
 /// Sides are numbered 0 bottom, 1 right, 2 top, 3 left.
@@ -63,7 +68,7 @@ struct SideContact {
   int first = 0;   ///< part of the first element
   int second = 0;  ///< part of the second element
   bool open = true;
-  int step = -1;   ///< of the crack that closes it, if known
+  int step = -1;  ///< of the crack that closes it, if known
 };
 
 /// Lays the portions of a common side over each other.

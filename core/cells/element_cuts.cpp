@@ -27,6 +27,18 @@ int ElementCuts::part_at(GridIndex element, const Vec2& at) const {
   return cut ? cut->part_at(at - Vec2(element.i, element.j)) : 0;
 }
 
+std::vector<int> ElementCuts::parts_at(GridIndex element, const Vec2& at) const {
+  const CutElement* cut = find(element);
+  if (!cut) return {0};
+  std::vector<int> found;
+  for (const ElementPolygon& polygon : cut->polygons) {
+    if (!polygon.continues && contains(polygon.loop, at - Vec2(element.i, element.j))) {
+      found.push_back(polygon.part);
+    }
+  }
+  return found;
+}
+
 std::vector<CrackFace> ElementCuts::faces_of(GridIndex element) const {
   std::vector<CrackFace> faces;
   if (const CutElement* cut = find(element)) {
@@ -48,8 +60,14 @@ void ElementCuts::add_side_faces(GridIndex e, std::vector<CrackFace>& faces) con
     for (const SideContact& c : contacts(side(e, my_side), side(other, its_side))) {
       if (c.open) continue;
       const PathStep& step = paths_.steps()[std::size_t(c.step)];
-      CrackFace face{start + c.t0 * along, start + c.t1 * along, step.crack, step.segment, e, other,
-                     c.first, c.second};
+      CrackFace face{start + c.t0 * along,
+                     start + c.t1 * along,
+                     step.crack,
+                     step.segment,
+                     e,
+                     other,
+                     c.first,
+                     c.second};
       // `along` has this element on its left for the right side, on its right for the upper one;
       // the face keeps the direction of the crack
       bool mine_is_plus = my_side == 1;

@@ -2,12 +2,12 @@
 /// The cut elements of the grid, made when they are first asked for.
 #pragma once
 
-#include <unordered_map>
-#include <vector>
-
 #include "core/cells/cut_element.hpp"
 #include "core/cracks/crack_paths.hpp"
 #include "core/mesh/grid.hpp"
+
+#include <unordered_map>
+#include <vector>
 
 namespace cdca {
 
@@ -18,7 +18,7 @@ struct CrackFace {
   Vec2 to{0, 0};
   int crack = 0;
   int segment = 0;
-  GridIndex plus_element;   ///< on the left of from -> to
+  GridIndex plus_element;  ///< on the left of from -> to
   GridIndex minus_element;
   int plus_part = 0;
   int minus_part = 0;
@@ -40,6 +40,8 @@ class ElementCuts {
   const std::vector<SidePortion>& side(GridIndex element, std::size_t side) const;
   /// The part that holds a place given in grid coordinates inside (or on the rim of) the element.
   int part_at(GridIndex element, const Vec2& at) const;
+  /// All parts that reach the place; several on a crack.
+  std::vector<int> parts_at(GridIndex element, const Vec2& at) const;
 
   /// Faces inside the element, and those along its right and upper side.
   std::vector<CrackFace> faces_of(GridIndex element) const;

@@ -21,9 +21,9 @@ NearTipValues near_tip_functions(const TipPolar& p) {
   NearTipValues f;
   for (std::size_t l = 0; l < 4; ++l) {
     f.value[l] = root * angular[l];
-    f.gradient[l] = p.r > 0 ? Vec2(angular[l] / (2 * root) * p.grad_r +
-                                   root * derivative[l] * p.grad_theta)
-                            : Vec2(0, 0);
+    f.gradient[l] =
+        p.r > 0 ? Vec2(angular[l] / (2 * root) * p.grad_r + root * derivative[l] * p.grad_theta)
+                : Vec2(0, 0);
   }
   return f;
 }
@@ -47,6 +47,11 @@ TipFrame::TipFrame(std::vector<Vec2> path, bool end_is_open) : path_(std::move(p
     }
   }
   if (end_is_open) valid_ = radius_.back();
+}
+
+std::vector<double> TipFrame::bends() const {
+  if (radius_.size() <= 2) return {};
+  return {radius_.begin() + 1, radius_.end() - 1};
 }
 
 Vec2 TipFrame::local(const Vec2& x) const {
@@ -77,9 +82,9 @@ TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
   double g = std::atan2(d.y(), d.x()) - b.angle;
   if (g > pi) g -= 2 * pi;
   if (g < -pi) g += 2 * pi;
-  // on a face rounding may pick the wrong side of the cut
-  if (side == FaceSide::plus && g < 0) g = std::abs(g) > pi / 2 ? pi : g;
-  if (side == FaceSide::minus && g > 0) g = std::abs(g) > pi / 2 ? -pi : g;
+  // seen from the other face the angle goes on beyond +-pi instead of jumping
+  if (side == FaceSide::plus && g < -pi / 2) g += 2 * pi;
+  if (side == FaceSide::minus && g > pi / 2) g -= 2 * pi;
   polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
   const Vec2 radial = (x - tip()) / polar.r;
   const double by_g = 1 - b.angle * std::sin(g) / 2, by_bend = (1 + std::cos(g)) / 2;

@@ -2,10 +2,10 @@
 /// The near-tip functions of Eq. 5, in polar coordinates that follow the bent crack.
 #pragma once
 
+#include "core/base/types.hpp"
+
 #include <array>
 #include <vector>
-
-#include "core/base/types.hpp"
 
 namespace cdca {
 
@@ -32,8 +32,9 @@ NearTipValues near_tip_functions(const TipPolar& polar);
 /// The frame of one tip.
 ///
 /// The crack behind the tip is seen at distance r under the angle pi + bend(r) from the tangent.
-/// With g = alpha - bend(r) in (-pi, pi), the angle used is theta = g + bend (1 + cos g) / 2: smooth
-/// in the uncracked material, exactly +-pi on the faces, and the plain angle for a straight crack.
+/// With g = alpha - bend(r) in (-pi, pi), the angle used is theta = g + bend (1 + cos g) / 2:
+/// smooth in the uncracked material, exactly +-pi on the faces, and the plain angle for a straight
+/// crack.
 class TipFrame {
  public:
   TipFrame() = default;
@@ -48,9 +49,11 @@ class TipFrame {
   /// Up to this distance from the tip the functions open the crack and nothing else, m. It ends
   /// where the crack turns back towards its tip, bends by more than 110 degrees, or stops.
   double valid_radius() const { return valid_; }
+  /// Distances at which the crack bends, m: there the functions have a kink.
+  std::vector<double> bends() const;
 
-  /// x in m. `side` says on which face a point of the crack lies; plus is on the left of the way
-  /// towards the tip.
+  /// x in m. `side` says to which face a point on (or close to) the crack belongs; plus is on the
+  /// left of the way towards the tip.
   TipPolar polar(const Vec2& x, FaceSide side = FaceSide::none) const;
   /// Unrolled for a straight crack: a point's coordinates along and across the tangent, m.
   Vec2 local(const Vec2& x) const;

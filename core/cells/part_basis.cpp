@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/part_basis.hpp"
 
-#include <algorithm>
-
 #include "core/mesh/shape_functions.hpp"
+
+#include <algorithm>
 
 namespace cdca {
 
@@ -14,6 +14,11 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
   const auto nodes = context.mesh.element_nodes(element);
   const auto corners = grid.corners(element);
   const GlobalId id = grid.element(element);
+  if (const CutElement* cut = context.cuts.find(element)) {
+    for (const ElementPolygon& polygon : cut->polygons) {
+      if (polygon.part == part && polygon.continues) slivers_.push_back(&polygon);
+    }
+  }
   for (std::size_t a = 0; a < 4; ++a) {
     pieces_[a] = -1;
     if (nodes[a] < 0) continue;
@@ -35,6 +40,13 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
 
 Vec2 PartBasis::position(const Vec2& p) const { return corner_ + p.cwiseProduct(size_); }
 
+const Vec2* PartBasis::seen_from(const Vec2& p, const Vec2* inside) const {
+  for (const ElementPolygon* sliver : slivers_) {
+    if (contains(sliver->loop, p)) return &*sliver->continues;
+  }
+  return inside;
+}
+
 std::vector<LocalId> PartBasis::unknowns() const {
   std::vector<LocalId> first;
   for (const LocalId u : pieces_) {
@@ -53,6 +65,8 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
   for (std::size_t a = 0; a < 4; ++a) {
     if (pieces_[a] >= 0) functions.push_back({pieces_[a], n.value[a], n.gradient[a]});
   }
+  if (tips_.empty()) return;
+  inside = seen_from(p, inside);
   NearTipValues f{};
   const TipZone* known = nullptr;
   for (const TipShape& tip : tips_) {
@@ -73,13 +87,13 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
   }
 }
 
-std::vector<Vec2> PartBasis::tip_places() const {
-  std::vector<Vec2> places;
+std::vector<SingularPlace> PartBasis::tip_places() const {
+  std::vector<SingularPlace> places;
   const TipZone* known = nullptr;
   for (const TipShape& tip : tips_) {
     if (tip.zone == known) continue;
     known = tip.zone;
-    places.push_back((known->frame.tip() - corner_).cwiseQuotient(size_));
+    places.push_back({(known->frame.tip() - corner_).cwiseQuotient(size_), known->frame.bends()});
   }
   return places;
 }

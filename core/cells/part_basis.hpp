@@ -2,13 +2,14 @@
 /// The displacement functions that act on one part of one element.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "core/cells/cell_unknowns.hpp"
 #include "core/cells/element_cuts.hpp"
+#include "core/cells/quadrature.hpp"
 #include "core/cells/tip_zone.hpp"
 #include "core/mesh/local_mesh.hpp"
+
+#include <array>
+#include <vector>
 
 namespace cdca {
 
@@ -27,8 +28,8 @@ struct BasisContext {
   const CellUnknowns& unknowns;
 };
 
-/// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq. 4-5,
-/// in the basis of pieces).
+/// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq.
+/// 4-5, in the basis of pieces).
 class PartBasis {
  public:
   PartBasis(const BasisContext& context, GridIndex element, int part);
@@ -42,7 +43,7 @@ class PartBasis {
   void evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
                 const Vec2* inside = nullptr) const;
   /// Tips whose functions act here, inside-the-element coordinates.
-  std::vector<Vec2> tip_places() const;
+  std::vector<SingularPlace> tip_places() const;
 
  private:
   struct TipShape {
@@ -52,16 +53,19 @@ class PartBasis {
     std::array<double, 4> at_node;
   };
   Vec2 position(const Vec2& p) const;
+  /// Slivers take the field across the crack: from there they are looked at.
+  const Vec2* seen_from(const Vec2& p, const Vec2* inside) const;
 
-  Vec2 corner_;  ///< m
-  Vec2 size_;    ///< m
+  Vec2 corner_;                    ///< m
+  Vec2 size_;                      ///< m
   std::array<LocalId, 4> pieces_;  ///< -1: not held by this rank
   std::vector<TipShape> tips_;
+  std::vector<const ElementPolygon*> slivers_;  ///< of this part
 };
 
 /// Displacement and its gradient at a place.
 struct FieldValue {
-  Vec2 displacement{0, 0};                                  ///< m
+  Vec2 displacement{0, 0};                             ///< m
   Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();  ///< gradient(i, j) = d u_i / d x_j
 };
 

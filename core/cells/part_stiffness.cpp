@@ -30,9 +30,8 @@ PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int
   Eigen::Matrix<double, 3, Eigen::Dynamic> b(3, size);
   Eigen::Matrix<double, 3, Eigen::Dynamic> stress(3, size);
   std::vector<BasisFunction> functions;
-  const auto points = basis.has_tip_functions()
-                          ? tip_quadrature(cut, part, basis.tip_places(), h)
-                          : plain_quadrature(cut, part);
+  const auto points = basis.has_tip_functions() ? tip_quadrature(cut, part, basis.tip_places(), h)
+                                                : plain_quadrature(cut, part);
   for (const QuadraturePoint& q : points) {
     basis.evaluate(q.at, functions);
     for (std::size_t k = 0; k < functions.size(); ++k) {

@@ -2,10 +2,10 @@
 /// The pieces of a cell: the connected parts into which cracks cut the support of its node.
 #pragma once
 
+#include "core/cells/element_cuts.hpp"
+
 #include <array>
 #include <vector>
-
-#include "core/cells/element_cuts.hpp"
 
 namespace cdca {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/planar_subdivision.hpp"
 
+#include "core/cracks/crack.hpp"
+#include "core/cracks/segments.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-
-#include "core/cracks/crack.hpp"
-#include "core/cracks/segments.hpp"
 
 namespace cdca {
 

@@ -2,10 +2,10 @@
 /// The planar arrangement of crack steps inside one element.
 #pragma once
 
+#include "core/base/types.hpp"
+
 #include <array>
 #include <vector>
-
-#include "core/base/types.hpp"
 
 namespace cdca {
 
@@ -26,10 +26,11 @@ struct SubdivisionEdge {
 };
 
 /// The unit square split by segments. Segments that end in the open are prolonged straight on by
-/// virtual edges, so that every face is a simple polygon without slits and every loose end a corner.
+/// virtual edges, so that every face is a simple polygon without slits and every loose end a
+/// corner.
 class PlanarSubdivision {
  public:
-  static constexpr int rim = -1;       ///< tag of edges on the rim of the square
+  static constexpr int rim = -1;        ///< tag of edges on the rim of the square
   static constexpr int prolonged = -2;  ///< tag of virtual edges
 
   explicit PlanarSubdivision(const std::vector<TaggedSegment>& segments);

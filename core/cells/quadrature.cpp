@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/quadrature.hpp"
 
+#include "core/cells/gauss.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/cells/gauss.hpp"
 
 namespace cdca {
 
@@ -53,46 +53,78 @@ void add_folded(const Triangle& t, int n, std::vector<QuadraturePoint>& points) 
   }
 }
 
+/// Parts of the way from the tip (0) to the far side (1) between which the functions are smooth.
+std::vector<double> radial_stops(double reach, const std::vector<double>& bends) {
+  std::vector<double> stops{0.0};
+  for (const double r : bends) {
+    const double s = std::sqrt(r / reach);
+    if (s > stops.back() + 1e-9 && s < 1.0 - 1e-9) stops.push_back(s);
+  }
+  stops.push_back(1.0);
+  return stops;
+}
+
 /// The tip is corner 0; the distance is s^2, so that square roots become polynomials.
-void add_collapsed(const Triangle& t, std::vector<QuadraturePoint>& points) {
+void add_collapsed(const Triangle& t, const SingularPlace& tip,
+                   std::vector<QuadraturePoint>& points) {
   const Vec2 a = t[1] - t[0], b = t[2] - t[0];
   const double angle = std::abs(std::atan2(cross(a, b), a.dot(b)));
   const bool uneven = std::max(a.norm(), b.norm()) > 3 * std::min(a.norm(), b.norm());
-  if (angle > 0.3 * std::numbers::pi || (uneven && (a - b).norm() > 1.5 * std::min(a.norm(), b.norm()))) {
+  if (angle > 0.3 * std::numbers::pi ||
+      (uneven && (a - b).norm() > 1.5 * std::min(a.norm(), b.norm()))) {
     // halve the angle, not the side: flat triangles would keep one wide half
     const double split = a.norm() / (a.norm() + b.norm());
     const Vec2 middle = t[1] + split * (t[2] - t[1]);
-    add_collapsed({t[0], t[1], middle}, points);
-    add_collapsed({t[0], middle, t[2]}, points);
+    add_collapsed({t[0], t[1], middle}, tip, points);
+    add_collapsed({t[0], middle, t[2]}, tip, points);
     return;
   }
   const double area = twice_area(t);
-  for (const GaussPoint& s : gauss_points(8)) {
-    for (const GaussPoint& v : gauss_points(12)) {
-      const double r = s.x * s.x;
-      points.push_back({t[0] + r * ((1 - v.x) * a + v.x * b), 2 * s.x * r * s.weight * v.weight * area});
+  for (const GaussPoint& v : gauss_points(12)) {
+    const Vec2 ray = (1 - v.x) * a + v.x * b;
+    const auto stops = radial_stops(ray.norm(), tip.bends);
+    for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+      const double length = stops[k + 1] - stops[k];
+      for (const GaussPoint& g : gauss_points(8)) {
+        const double s = stops[k] + g.x * length, r = s * s;
+        points.push_back({t[0] + r * ray, 2 * s * r * length * g.weight * v.weight * area});
+      }
     }
   }
 }
 
 int order_for(double size, double gap) { return gap > 6 * size ? 5 : gap > 3 * size ? 6 : 9; }
 
-void add_graded(const Triangle& t, const std::vector<Vec2>& tips, int depth,
+double farthest(const Triangle& t, const Vec2& p) {
+  return std::max({(t[0] - p).norm(), (t[1] - p).norm(), (t[2] - p).norm()});
+}
+
+/// Size to which triangles are halved across a kink of the functions, in element sizes.
+constexpr double across_bends = 1.0 / 64;
+
+void add_graded(const Triangle& t, const std::vector<SingularPlace>& tips, int depth,
                 std::vector<QuadraturePoint>& points) {
   if (twice_area(t) <= 1e-16) return;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (const Vec2& tip : tips) {
-      if ((t[k] - tip).norm() < same_place) {
-        add_collapsed({t[k], t[(k + 1) % 3], t[(k + 2) % 3]}, points);
+    for (const SingularPlace& tip : tips) {
+      if ((t[k] - tip.at).norm() < same_place) {
+        add_collapsed({t[k], t[(k + 1) % 3], t[(k + 2) % 3]}, tip, points);
         return;
       }
     }
   }
-  double gap = 1e300;
-  for (const Vec2& tip : tips) gap = std::min(gap, distance(t, tip));
   const double size = longest_side(t);
-  if (gap >= size || depth == 0) {
-    add_folded(t, order_for(size, gap), points);
+  double gap = 1e300;
+  bool bent = false;
+  for (const SingularPlace& tip : tips) {
+    const double near = distance(t, tip.at);
+    gap = std::min(gap, near);
+    if (tip.bends.empty()) continue;
+    const double far = farthest(t, tip.at);
+    for (const double r : tip.bends) bent = bent || (near < r && r < far);
+  }
+  if (depth == 0 || (gap >= size && !(bent && size > across_bends))) {
+    add_folded(t, bent ? 4 : order_for(size, gap), points);
     return;
   }
   std::size_t k = 0;
@@ -116,21 +148,14 @@ std::vector<QuadraturePoint> square_points(int n) {
   return points;
 }
 
-/// Area in metres weighs directions alike for the choice of triangles near a tip.
-void undo_scale(std::vector<QuadraturePoint>& points, const Vec2& h) {
-  for (QuadraturePoint& q : points) {
-    q.at = q.at.cwiseQuotient(h);
-    q.weight /= h.prod();
-  }
-}
-
 bool is_ear(const std::vector<Vec2>& loop, std::size_t k) {
   const std::size_t n = loop.size();
   const Vec2 &a = loop[(k + n - 1) % n], &b = loop[k], &c = loop[(k + 1) % n];
   if (cross(b - a, c - b) <= 0) return false;
   for (const Vec2& p : loop) {
     if (p == a || p == b || p == c) continue;
-    if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0) return false;
+    if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0)
+      return false;
   }
   return true;
 }
@@ -188,35 +213,36 @@ std::vector<QuadraturePoint> plain_quadrature(const CutElement* cut, int part) {
 }
 
 std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
-                                            const std::vector<Vec2>& tips, const Vec2& h) {
-  std::vector<Vec2> scaled;
-  for (const Vec2& tip : tips) scaled.push_back(tip.cwiseProduct(h));
+                                            const std::vector<SingularPlace>& tips, const Vec2& h) {
+  // lengths that count near a tip are metres; the larger side of the element is the unit
+  const double unit = h.maxCoeff();
+  const Vec2 scale = h / unit;
+  std::vector<SingularPlace> near;
   double nearest = 1e300;
-  const Vec2 centre = 0.5 * h;
-  for (const Vec2& tip : scaled) nearest = std::min(nearest, (tip - centre).norm());
-  if (whole_square(cut) && nearest > 2 * h.maxCoeff()) {
-    return square_points(nearest > 5 * h.maxCoeff() ? 5 : 8);
+  bool bent = false;
+  for (const SingularPlace& tip : tips) {
+    SingularPlace scaled{tip.at.cwiseProduct(scale), {}};
+    for (const double r : tip.bends) scaled.bends.push_back(r / unit);
+    nearest = std::min(nearest, (scaled.at - 0.5 * scale).norm());
+    bent = bent || !scaled.bends.empty();
+    near.push_back(std::move(scaled));
   }
+  if (whole_square(cut) && !bent && nearest > 2) return square_points(nearest > 5 ? 5 : 8);
   std::vector<QuadraturePoint> points;
   for (auto loop : loops_of(cut, part)) {
-    for (Vec2& p : loop) p = p.cwiseProduct(h);
+    for (Vec2& p : loop) p = p.cwiseProduct(scale);
     const Vec2* apex = nullptr;
-    for (const Vec2& tip : scaled) {
+    for (const SingularPlace& tip : near) {
       for (const Vec2& p : loop) {
-        if ((p - tip).norm() < same_place * h.maxCoeff()) apex = &tip;
+        if ((p - tip.at).norm() < same_place) apex = &tip.at;
       }
     }
-    // sizes are compared with h = 1 for absolute limits inside
-    const double unit = h.maxCoeff();
-    for (Vec2& p : loop) p /= unit;
-    std::vector<Vec2> near;
-    for (const Vec2& tip : scaled) near.push_back(tip / unit);
-    const Vec2 apex_place = apex ? Vec2(*apex / unit) : Vec2(0, 0);
-    for (const Triangle& t : triangulate(loop, apex ? &apex_place : nullptr)) {
-      add_graded(t, near, 40, points);
-    }
+    for (const Triangle& t : triangulate(loop, apex)) add_graded(t, near, 40, points);
   }
-  undo_scale(points, h / h.maxCoeff());
+  for (QuadraturePoint& q : points) {
+    q.at = q.at.cwiseQuotient(scale);
+    q.weight /= scale.prod();
+  }
   return points;
 }
 
@@ -232,29 +258,29 @@ std::vector<QuadraturePoint> smooth_quadrature(const CutElement* cut, int part, 
 }
 
 std::vector<QuadraturePoint> line_quadrature(const Vec2& from, const Vec2& to,
-                                             const std::vector<Vec2>& tips) {
+                                             const std::vector<SingularPlace>& tips) {
   std::vector<QuadraturePoint> points;
   const double length = (to - from).norm();
+  const auto at = [&](double t) -> Vec2 { return from + t * (to - from); };
   const auto add = [&](auto&& self, double a, double b, int depth) -> void {
     double gap = 1e300;
-    for (const Vec2& tip : tips) {
-      const double t = std::clamp((tip - from).dot(to - from) / (length * length), a, b);
-      gap = std::min(gap, (from + t * (to - from) - tip).norm());
-      const bool at_a = (from + a * (to - from) - tip).norm() < same_place;
-      const bool at_b = (from + b * (to - from) - tip).norm() < same_place;
+    for (const SingularPlace& tip : tips) {
+      const bool at_a = (at(a) - tip.at).norm() < same_place;
+      const bool at_b = (at(b) - tip.at).norm() < same_place;
       if (at_a || at_b) {
         for (const GaussPoint& g : gauss_points(12)) {
           const double s = g.x * g.x;
-          points.push_back({from + (at_a ? a + s * (b - a) : b - s * (b - a)) * (to - from),
-                            2 * g.x * g.weight * (b - a)});
+          points.push_back(
+              {at(at_a ? a + s * (b - a) : b - s * (b - a)), 2 * g.x * g.weight * (b - a)});
         }
         return;
       }
+      const double t = std::clamp((tip.at - from).dot(to - from) / (length * length), a, b);
+      gap = std::min(gap, (at(t) - tip.at).norm());
     }
     if (gap >= (b - a) * length || depth == 0) {
-      for (const GaussPoint& g : gauss_points(10)) {
-        points.push_back({from + (a + g.x * (b - a)) * (to - from), g.weight * (b - a)});
-      }
+      for (const GaussPoint& g : gauss_points(10))
+        points.push_back({at(a + g.x * (b - a)), g.weight * (b - a)});
       return;
     }
     self(self, a, 0.5 * (a + b), depth - 1);

@@ -2,9 +2,9 @@
 /// Quadrature on the parts of elements.
 #pragma once
 
-#include <vector>
-
 #include "core/cells/element_cuts.hpp"
+
+#include <vector>
 
 namespace cdca {
 
@@ -18,11 +18,18 @@ struct QuadraturePoint {
 /// is not convex.
 std::vector<QuadraturePoint> plain_quadrature(const CutElement* cut, int part);
 
+/// A tip as quadrature sees it.
+struct SingularPlace {
+  Vec2 at{0, 0};                ///< inside-the-element coordinates; may lie outside the element
+  std::vector<double> bends{};  ///< distances (m) at which the near-tip functions have a kink
+};
+
 /// For parts with near-tip functions: polygons are split into triangles; those with a corner at a
 /// tip use points collapsed towards it, in the square root of the distance; the others are halved
-/// until they are no larger than their distance from every tip. h: element size, m.
+/// until they are no larger than their distance from every tip, and small where a crack bends.
+/// h: element size, m.
 std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
-                                            const std::vector<Vec2>& tips, const Vec2& h);
+                                            const std::vector<SingularPlace>& tips, const Vec2& h);
 
 /// n x n Gauss points on every triangle of a part; for smooth integrands that are no polynomials.
 std::vector<QuadraturePoint> smooth_quadrature(const CutElement* cut, int part, int n);
@@ -31,9 +38,8 @@ std::vector<QuadraturePoint> smooth_quadrature(const CutElement* cut, int part, 
 /// as a fan where that is possible.
 std::vector<std::array<Vec2, 3>> triangulate(std::vector<Vec2> loop, const Vec2* apex = nullptr);
 
-/// Points on a straight line from 0 to 1, with weights adding up to 1, graded towards the places
-/// where functions have a square root (fractions of the line; may lie outside it).
+/// Points on a straight line, with weights adding up to 1, graded towards the tips.
 std::vector<QuadraturePoint> line_quadrature(const Vec2& from, const Vec2& to,
-                                             const std::vector<Vec2>& tips);
+                                             const std::vector<SingularPlace>& tips);
 
 }  // namespace cdca

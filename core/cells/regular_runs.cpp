@@ -29,8 +29,7 @@ RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular
       const auto row = std::size_t(1 + corner[b][1] - corner[own][1]);
       for (std::size_t c = 0; c < 2; ++c) {
         for (std::size_t d = 0; d < 2; ++d) {
-          stencil_[row][c][2 * column + d] +=
-              k(Eigen::Index(2 * own + c), Eigen::Index(2 * b + d));
+          stencil_[row][c][2 * column + d] += k(Eigen::Index(2 * own + c), Eigen::Index(2 * b + d));
         }
       }
     }
@@ -69,7 +68,8 @@ void RegularRuns::apply(std::span<const double> x, std::span<double> forces) con
 
 void RegularRuns::sweep(const RegularRun& run, bool forward, double omega, std::span<double> forces,
                         std::span<double> displacements) const {
-  double* rows[3] = {&forces[2 * std::size_t(run.below) - 2], &forces[2 * std::size_t(run.node) - 2],
+  double* rows[3] = {&forces[2 * std::size_t(run.below) - 2],
+                     &forces[2 * std::size_t(run.node) - 2],
                      &forces[2 * std::size_t(run.above) - 2]};
   double* u = &displacements[2 * std::size_t(run.node)];
   for (LocalId k = 0; k < run.count; ++k) {

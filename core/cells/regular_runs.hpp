@@ -2,18 +2,18 @@
 /// Regular cells: those that share one stencil. They are kept as runs of neighbours in a grid row.
 #pragma once
 
+#include "core/cells/part_stiffness.hpp"
+#include "core/mesh/local_mesh.hpp"
+
 #include <array>
 #include <span>
 #include <vector>
-
-#include "core/cells/part_stiffness.hpp"
-#include "core/mesh/local_mesh.hpp"
 
 namespace cdca {
 
 /// Consecutive cells of one grid row; the rows below and above are consecutive as well.
 struct RegularRun {
-  LocalId node = 0;   ///< first cell
+  LocalId node = 0;  ///< first cell
   LocalId count = 0;
   LocalId below = 0;  ///< node under the first cell
   LocalId above = 0;

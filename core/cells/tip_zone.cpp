@@ -39,9 +39,12 @@ std::vector<GridIndex> zone_nodes(const StructuredGrid& grid, const Vec2& at, co
     for (const GridIndex corner : grid.corners(e)) ids.insert(grid.node(corner));
   }
   const Vec2 reach = tip_radius * grid.element_size().cwiseInverse();
-  for (int j = std::max(0, int(at.y() - reach.y())); j <= std::min(grid.ny(), int(at.y() + reach.y()) + 1); ++j) {
-    for (int i = std::max(0, int(at.x() - reach.x())); i <= std::min(grid.nx(), int(at.x() + reach.x()) + 1); ++i) {
-      if ((grid.node_position({i, j}) - frame.tip()).norm() <= tip_radius) ids.insert(grid.node({i, j}));
+  for (int j = std::max(0, int(at.y() - reach.y()));
+       j <= std::min(grid.ny(), int(at.y() + reach.y()) + 1); ++j) {
+    for (int i = std::max(0, int(at.x() - reach.x()));
+         i <= std::min(grid.nx(), int(at.x() + reach.x()) + 1); ++i) {
+      if ((grid.node_position({i, j}) - frame.tip()).norm() <= tip_radius)
+        ids.insert(grid.node({i, j}));
     }
   }
   std::vector<GridIndex> nodes;
@@ -92,7 +95,8 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
     }
   }
   // just ahead of the tip is uncracked material, whatever meets behind it
-  const Vec2 ahead = tip.at + 1e-4 * zone.frame.tangent().cwiseQuotient(grid.element_size()).normalized();
+  const Vec2 ahead =
+      tip.at + 1e-4 * zone.frame.tangent().cwiseQuotient(grid.element_size()).normalized();
   const GridIndex start = grid.element_at(ahead);
   if (zone.parts.count(grid.element(start))) flood(cuts, start, cuts.part_at(start, ahead), zone);
   for (const GridIndex n : nodes) {

@@ -2,18 +2,18 @@
 /// The surroundings of a crack tip in which cells carry near-tip functions.
 #pragma once
 
-#include <unordered_map>
-#include <unordered_set>
-#include <vector>
-
 #include "core/cells/element_cuts.hpp"
 #include "core/cells/near_tip.hpp"
 #include "core/cracks/crack_registry.hpp"
 
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
 namespace cdca {
 
-/// One active tip, its frame, its cells, and the parts of elements on which its functions act: those
-/// that can be reached from the tip without crossing any crack.
+/// One active tip, its frame, its cells, and the parts of elements on which its functions act:
+/// those that can be reached from the tip without crossing any crack.
 struct TipZone {
   int crack = 0;
   int end = 0;

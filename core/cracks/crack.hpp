@@ -2,11 +2,11 @@
 /// A crack: a polyline with two ends, each of them a tip as long as it can still grow.
 #pragma once
 
+#include "core/base/types.hpp"
+
 #include <array>
 #include <string>
 #include <vector>
-
-#include "core/base/types.hpp"
 
 namespace cdca {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cracks/crack_paths.hpp"
 
+#include "core/cracks/segments.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
-
-#include "core/cracks/segments.hpp"
 
 namespace cdca {
 
@@ -131,7 +131,8 @@ CrackPaths::CrackPaths(const StructuredGrid& grid, const std::vector<Crack>& cra
     std::vector<Vec2> points;
     for (const Vec2& p : cracks[c].points) points.push_back(pool.settle(grid.to_grid(p)));
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      if (points[k] != points[k + 1]) chains.push_back({int(c), int(k), points[k], points[k + 1], {}});
+      if (points[k] != points[k + 1])
+        chains.push_back({int(c), int(k), points[k], points[k + 1], {}});
     }
     for (int end = 0; end < 2; ++end) {
       if (cracks[c].ends[std::size_t(end)].state != TipState::active) continue;

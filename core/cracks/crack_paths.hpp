@@ -2,11 +2,11 @@
 /// The cracks as the cells see them: chopped by the grid lines into steps that stay in one element.
 #pragma once
 
-#include <unordered_map>
-#include <vector>
-
 #include "core/cracks/crack.hpp"
 #include "core/mesh/grid.hpp"
+
+#include <unordered_map>
+#include <vector>
 
 namespace cdca {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cracks/crack_registry.hpp"
 
+#include "core/cracks/segments.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <map>
 #include <numeric>
-
-#include "core/cracks/segments.hpp"
 
 namespace cdca {
 
@@ -181,7 +181,8 @@ CrackNetwork network_of(const std::vector<Crack>& cracks, const Rectangle& body,
   };
   for (std::size_t a = 0; a < cracks.size(); ++a) {
     for (std::size_t b = a + 1; b < cracks.size(); ++b) {
-      if (find(a) != find(b) && cracks_touch(cracks[a], cracks[b], tolerance)) root[find(b)] = find(a);
+      if (find(a) != find(b) && cracks_touch(cracks[a], cracks[b], tolerance))
+        root[find(b)] = find(a);
     }
   }
   struct Cluster {

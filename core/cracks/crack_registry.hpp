@@ -2,10 +2,10 @@
 /// All cracks of the body, the same on every rank.
 #pragma once
 
+#include "core/cracks/crack.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "core/cracks/crack.hpp"
 
 namespace cdca {
 

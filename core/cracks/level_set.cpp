@@ -98,7 +98,8 @@ std::vector<CellWeight> cell_weights(const StructuredGrid& grid, const std::vect
       const Vec2 lower = grid.to_grid(x - Vec2(tip_radius, tip_radius));
       const Vec2 upper = grid.to_grid(x + Vec2(tip_radius, tip_radius));
       for (int j = std::max(0, int(lower.y())); j <= std::min(grid.ny(), int(upper.y()) + 1); ++j) {
-        for (int i = std::max(0, int(lower.x())); i <= std::min(grid.nx(), int(upper.x()) + 1); ++i) {
+        for (int i = std::max(0, int(lower.x())); i <= std::min(grid.nx(), int(upper.x()) + 1);
+             ++i) {
           if ((grid.node_position({i, j}) - x).norm() <= tip_radius) tip.insert(grid.node({i, j}));
         }
       }

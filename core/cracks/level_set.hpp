@@ -2,11 +2,11 @@
 /// The level sets of a crack (Eq. 1-3 of the paper) and the typing of cells by them.
 #pragma once
 
-#include <vector>
-
 #include "core/cracks/crack.hpp"
 #include "core/mesh/block_partition.hpp"
 #include "core/mesh/grid.hpp"
+
+#include <vector>
 
 namespace cdca {
 

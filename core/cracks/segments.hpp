@@ -2,9 +2,9 @@
 /// Where two straight segments meet.
 #pragma once
 
-#include <optional>
-
 #include "core/base/types.hpp"
+
+#include <optional>
 
 namespace cdca {
 

@@ -2,12 +2,12 @@
 /// Supports and loads as the user states them.
 #pragma once
 
+#include "core/base/types.hpp"
+
 #include <array>
 #include <functional>
 #include <optional>
 #include <string>
-
-#include "core/base/types.hpp"
 
 namespace cdca {
 
@@ -31,11 +31,11 @@ struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::side;
   std::string name;  ///< "left", ..., "crack:NAME", or "at_1", "at_2", ... for points
   Side side = Side::left;
-  Vec2 at{0, 0};      ///< m; supports take the nearest node, forces act at the point itself
-  std::string crack;  ///< name of the crack whose faces are loaded
-  LoadVector displacement;            ///< m; free where there is no value
-  LoadVector traction;                ///< Pa, global components, on a side
-  LoadVector force;                   ///< N per m of thickness, at a point
+  Vec2 at{0, 0};            ///< m; supports take the nearest node, forces act at the point itself
+  std::string crack;        ///< name of the crack whose faces are loaded
+  LoadVector displacement;  ///< m; free where there is no value
+  LoadVector traction;      ///< Pa, global components, on a side
+  LoadVector force;         ///< N per m of thickness, at a point
   std::optional<LoadValue> pressure;  ///< Pa, opens the crack when positive
   int line = 0;
 };

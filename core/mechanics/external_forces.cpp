@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/external_forces.hpp"
 
-#include <algorithm>
-
 #include "core/cells/quadrature.hpp"
 #include "core/mechanics/side_walk.hpp"
+
+#include <algorithm>
 
 namespace cdca {
 
@@ -32,7 +32,8 @@ class ForceCollector {
 };
 
 Vec2 value_of(const LoadVector& load, const Vec2& x, double s) {
-  return {load[0] ? load[0]->at(x.x(), x.y(), s) : 0.0, load[1] ? load[1]->at(x.x(), x.y(), s) : 0.0};
+  return {load[0] ? load[0]->at(x.x(), x.y(), s) : 0.0,
+          load[1] ? load[1]->at(x.x(), x.y(), s) : 0.0};
 }
 
 bool any(const LoadVector& load) { return load[0].has_value() || load[1].has_value(); }
@@ -116,7 +117,8 @@ ExternalLoads loads_at(const std::vector<BoundarySpec>& blocks, const LoadVector
   ExternalLoads loads;
   for (const BoundarySpec& b : blocks) {
     if (b.kind == BoundaryKind::side && any(b.traction)) {
-      loads.tractions.push_back({b.side, [&b, s](const Vec2& x) { return value_of(b.traction, x, s); }});
+      loads.tractions.push_back(
+          {b.side, [&b, s](const Vec2& x) { return value_of(b.traction, x, s); }});
     }
     if (b.kind == BoundaryKind::point && any(b.force)) {
       loads.forces.push_back({b.at, value_of(b.force, b.at, s)});

@@ -2,11 +2,11 @@
 /// Nodal forces of tractions, point forces, body forces and loads on crack faces.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "core/cells/part_basis.hpp"
 #include "core/mechanics/boundary_spec.hpp"
+
+#include <functional>
+#include <vector>
 
 namespace cdca {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/interaction_integral.hpp"
 
+#include "core/cells/quadrature.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/cells/quadrature.hpp"
 
 namespace cdca {
 
@@ -32,12 +32,13 @@ double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
 }
 
 /// How far the domain of a tip may reach.
-double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks, const TipZone& zone) {
+double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks,
+                   const TipZone& zone) {
   const Vec2 x = zone.frame.tip();
   const Vec2 low = x - grid.origin(), high = grid.origin() + grid.size() - x;
   const Crack& own = cracks[std::size_t(zone.crack)];
-  const bool straight_to_rim = own.segments() == 1 &&
-                               own.ends[std::size_t(1 - zone.end)].state == TipState::boundary;
+  const bool straight_to_rim =
+      own.segments() == 1 && own.ends[std::size_t(1 - zone.end)].state == TipState::boundary;
   double r = straight_to_rim ? 1e300 : zone.frame.straight_length();
   r = std::min({r, low.minCoeff(), high.minCoeff()});
   for (std::size_t c = 0; c < cracks.size(); ++c) {
@@ -101,7 +102,8 @@ class TipIntegral {
       for (int mode = 0; mode < 2; ++mode) {
         const WilliamsField aux = williams_field(material_, mode + 1, r, std::atan2(d.y(), d.x()));
         if (!flat) m[mode] += w * domain_term(s, g, aux, dq);
-        if (loads_.body) m[mode] -= w * q_.value(r) * (axes_ * loads_.body(x)).dot(aux.gradient.col(0));
+        if (loads_.body)
+          m[mode] -= w * q_.value(r) * (axes_ * loads_.body(x)).dot(aux.gradient.col(0));
       }
     }
   }
@@ -126,7 +128,7 @@ class TipIntegral {
         const Vec2 n = turned_left(along).normalized();
         // the left of the crack is the left of the way to the tip at end 1, the right at end 0
         const double plus_angle = zone_.end == 1 ? std::numbers::pi : -std::numbers::pi;
-        for (const QuadraturePoint& point : line_quadrature(face.from, face.to, {tip})) {
+        for (const QuadraturePoint& point : line_quadrature(face.from, face.to, {{tip, {}}})) {
           const Vec2 x = grid.from_grid(point.at);
           const double r = zone_.frame.local(x).norm();
           if (r >= q_.radius || r == 0.0) continue;
@@ -174,15 +176,14 @@ WilliamsField williams_field(const Material& material, int mode, double r, doubl
   }
   const Vec2 radial(std::cos(theta), std::sin(theta));
   field.displacement = amplitude * f;
-  field.gradient = amplitude / r * (0.5 * f * radial.transpose() + df * turned_left(radial).transpose());
+  field.gradient =
+      amplitude / r * (0.5 * f * radial.transpose() + df * turned_left(radial).transpose());
   return field;
 }
 
-std::vector<StressIntensity> stress_intensities(const BasisContext& context,
-                                                const std::vector<Crack>& cracks,
-                                                const Material& material, const ExternalLoads& loads,
-                                                std::span<const double> state,
-                                                Communicator& communicator) {
+std::vector<StressIntensity> stress_intensities(
+    const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
+    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator) {
   const StructuredGrid& grid = context.mesh.grid();
   const double h = grid.element_size().maxCoeff();
   std::vector<double> sums(2 * context.zones.size(), 0.0);

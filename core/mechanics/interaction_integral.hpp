@@ -2,11 +2,11 @@
 /// Stress intensity factors by the domain interaction integral.
 #pragma once
 
-#include <vector>
-
 #include "core/cracks/crack_registry.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
+
+#include <vector>
 
 namespace cdca {
 
@@ -35,10 +35,8 @@ WilliamsField williams_field(const Material& material, int mode, double r, doubl
 /// with the primed near-tip field of one mode; q falls smoothly from 1 to 0 between half the radius
 /// and the radius. The domain is kept off the rim, other cracks and bends of the crack itself.
 /// state: with ghosts.
-std::vector<StressIntensity> stress_intensities(const BasisContext& context,
-                                                const std::vector<Crack>& cracks,
-                                                const Material& material, const ExternalLoads& loads,
-                                                std::span<const double> state,
-                                                Communicator& communicator);
+std::vector<StressIntensity> stress_intensities(
+    const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
+    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator);
 
 }  // namespace cdca

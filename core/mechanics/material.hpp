@@ -7,19 +7,15 @@
 namespace cdca {
 
 struct Material {
-  double young = 1.0;    ///< Pa
+  double young = 1.0;  ///< Pa
   double poisson = 0.0;
   bool plane_strain = false;
 
   double shear() const { return young / (2 * (1 + poisson)); }
   /// Kolosov's constant.
-  double kolosov() const {
-    return plane_strain ? 3 - 4 * poisson : (3 - poisson) / (1 + poisson);
-  }
+  double kolosov() const { return plane_strain ? 3 - 4 * poisson : (3 - poisson) / (1 + poisson); }
   /// E' of K^2 = E' G: E in plane stress, E / (1 - nu^2) in plane strain.
-  double fracture_modulus() const {
-    return plane_strain ? young / (1 - poisson * poisson) : young;
-  }
+  double fracture_modulus() const { return plane_strain ? young / (1 - poisson * poisson) : young; }
   ElasticMatrix elastic_matrix() const;
   /// (xx, yy, xy) in Pa from the displacement gradient.
   Voigt stress(const Eigen::Matrix2d& gradient) const;

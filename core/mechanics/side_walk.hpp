@@ -2,10 +2,10 @@
 /// The elements along one side of the body.
 #pragma once
 
-#include <vector>
-
 #include "core/mechanics/boundary_spec.hpp"
 #include "core/mesh/local_mesh.hpp"
+
+#include <vector>
 
 namespace cdca {
 

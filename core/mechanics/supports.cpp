@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/supports.hpp"
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <map>
-
 #include "core/cells/gauss.hpp"
 #include "core/mechanics/side_walk.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <map>
 
 namespace cdca {
 
@@ -21,26 +22,36 @@ struct Fit {
   std::vector<Sample> samples;
 };
 
-/// Does the part that ends in this corner of the element hold the node alone, or does a crack pass
-/// through the node?
+/// Pieces of a cell that reach its node: one, or several when a crack passes through the node.
+std::vector<int> pieces_at_node(const BasisContext& c, GridIndex node, const CellPieces& pieces) {
+  std::vector<int> found;
+  const auto elements = c.mesh.grid().elements_round(node);
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    if (!c.mesh.grid().has_element(elements[slot])) continue;
+    for (const int part : c.cuts.parts_at(elements[slot], Vec2(node.i, node.j))) {
+      const int piece = pieces.piece[slot][std::size_t(part)];
+      if (std::find(found.begin(), found.end(), piece) == found.end()) found.push_back(piece);
+    }
+  }
+  return found;
+}
+
+/// Does the part that ends in this corner of the element hold the node alone?
 bool node_is_inside(const BasisContext& c, GridIndex element, std::size_t corner, int part) {
   const GridIndex node = c.mesh.grid().corners(element)[corner];
   const CellPieces pieces = pieces_of(c.cuts, node);
   const int mine = pieces.piece[(corner + 2) % 4][std::size_t(part)];
-  const auto elements = c.mesh.grid().elements_round(node);
-  for (std::size_t slot = 0; slot < 4; ++slot) {
-    if (!c.mesh.grid().has_element(elements[slot])) continue;
-    const int there = c.cuts.part_at(elements[slot], Vec2(node.i, node.j));
-    if (pieces.piece[slot][std::size_t(there)] != mine) return false;
-  }
-  return true;
+  return pieces_at_node(c, node, pieces) == std::vector<int>{mine};
 }
 
 class SideFits {
  public:
   SideFits(const BasisContext& context, Side side) : c_(context), geometry_(geometry_of(side)) {
     for (const GridIndex e : elements_at(context.mesh, side)) {
-      for (const SidePortion& p : context.cuts.side(e, geometry_.element_side)) add(e, p);
+      for (const SidePortion& p : context.cuts.side(e, geometry_.element_side)) {
+        // slivers belong to the part across the crack, but the function there does not
+        if (!p.closed) add(e, p);
+      }
     }
   }
   /// Node, piece -> fit; own nodes only.
@@ -52,7 +63,8 @@ class SideFits {
     const bool reaches[2] = {portion.t0 == 0.0, portion.t1 == 1.0};
     bool known[2];
     for (std::size_t k = 0; k < 2; ++k) {
-      known[k] = reaches[k] && (!c_.cuts.touched(e) || node_is_inside(c_, e, corner[k], portion.part));
+      known[k] =
+          reaches[k] && (!c_.cuts.touched(e) || node_is_inside(c_, e, corner[k], portion.part));
     }
     for (std::size_t k = 0; k < 2; ++k) {
       const LocalId node = c_.mesh.element_nodes(e)[corner[k]];
@@ -91,8 +103,8 @@ class SideFits {
     const Vec2 corner(e.i, e.j);
     for (const GaussPoint& g : gauss_points(4)) {
       const double t = portion.t0 + g.x * length;
-      fit.samples.push_back({c_.mesh.grid().from_grid(corner + geometry_.at(t)),
-                             g.weight * row.dot(Vec2(1 - t, t))});
+      fit.samples.push_back(
+          {c_.mesh.grid().from_grid(corner + geometry_.at(t)), g.weight * row.dot(Vec2(1 - t, t))});
     }
     if (known[other]) {
       const Vec2 end = corner + geometry_.at(double(other));
@@ -105,20 +117,6 @@ class SideFits {
   std::map<std::pair<LocalId, int>, Fit> fits_;
 };
 
-/// Pieces of a node that reach the node itself.
-std::vector<int> pieces_at_node(const BasisContext& c, LocalId node) {
-  std::vector<int> found;
-  const GridIndex at = c.mesh.node(node);
-  const auto elements = c.mesh.grid().elements_round(at);
-  for (std::size_t slot = 0; slot < 4; ++slot) {
-    if (!c.mesh.grid().has_element(elements[slot])) continue;
-    const int piece =
-        c.unknowns.piece(node, slot, c.cuts.part_at(elements[slot], Vec2(at.i, at.j)));
-    if (std::find(found.begin(), found.end(), piece) == found.end()) found.push_back(piece);
-  }
-  return found;
-}
-
 }  // namespace
 
 Supports::Supports(const BasisContext& c, const std::vector<BoundarySpec>& blocks) {
@@ -130,9 +128,10 @@ Supports::Supports(const BasisContext& c, const std::vector<BoundarySpec>& block
         const GridIndex nearest = c.mesh.grid().nearest_node(blocks[b].at);
         const LocalId node = c.mesh.find_node(nearest);
         if (node < 0 || !c.mesh.owns(node)) continue;
-        for (const int piece : pieces_at_node(c, node)) {
+        for (const int piece : pieces_at_node(c, nearest, pieces_of(c.cuts, nearest))) {
           const LocalId u = c.unknowns.of_piece(node, piece) + component;
-          held.try_emplace(u, HeldUnknown{u, b, component, {{c.mesh.grid().node_position(nearest), 1.0}}});
+          held.try_emplace(
+              u, HeldUnknown{u, b, component, {{c.mesh.grid().node_position(nearest), 1.0}}});
         }
       }
       if (blocks[b].kind != BoundaryKind::side) continue;

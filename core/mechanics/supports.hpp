@@ -2,10 +2,10 @@
 /// Prescribed displacements: which unknowns are held, and at which values.
 #pragma once
 
-#include <vector>
-
 #include "core/cells/part_basis.hpp"
 #include "core/mechanics/boundary_spec.hpp"
+
+#include <vector>
 
 namespace cdca {
 

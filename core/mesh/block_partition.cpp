@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/block_partition.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <algorithm>
 #include <array>
 #include <span>
-
-#include "core/base/errors.hpp"
 
 namespace cdca {
 

@@ -3,11 +3,11 @@
 /// ever holds something of the size of the grid.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "core/base/communicator.hpp"
 #include "core/mesh/grid.hpp"
+
+#include <functional>
+#include <vector>
 
 namespace cdca {
 
@@ -21,7 +21,8 @@ class BlockPartition {
 
   int owner(GridIndex node) const {
     if (owner_.empty()) return 0;
-    return owner_[std::size_t(node.j / block_) * std::size_t(blocks_x_) + std::size_t(node.i / block_)];
+    return owner_[std::size_t(node.j / block_) * std::size_t(blocks_x_) +
+                  std::size_t(node.i / block_)];
   }
   int block() const { return block_; }
   int blocks_x() const { return blocks_x_; }

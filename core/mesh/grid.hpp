@@ -2,9 +2,9 @@
 /// The structured grid of rectangles that never changes while cracks grow.
 #pragma once
 
-#include <array>
-
 #include "core/base/types.hpp"
+
+#include <array>
 
 namespace cdca {
 

@@ -3,12 +3,12 @@
 /// the neighbour cells (ghosts) of those elements.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/mesh/block_partition.hpp"
 #include "core/mesh/grid.hpp"
 #include "core/mesh/row_index.hpp"
+
+#include <span>
+#include <vector>
 
 namespace cdca {
 

@@ -2,10 +2,10 @@
 /// Finds the local number of a node or an element of a structured grid from its column and row.
 #pragma once
 
+#include "core/mesh/grid.hpp"
+
 #include <algorithm>
 #include <vector>
-
-#include "core/mesh/grid.hpp"
 
 namespace cdca {
 

@@ -2,9 +2,9 @@
 /// Bilinear shape functions of a rectangular element.
 #pragma once
 
-#include <array>
-
 #include "core/base/types.hpp"
+
+#include <array>
 
 namespace cdca {
 

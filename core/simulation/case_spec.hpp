@@ -2,27 +2,27 @@
 /// What a case file says, in plain values with SI units; the text and its syntax stay in io/.
 #pragma once
 
+#include "core/mechanics/boundary_spec.hpp"
+
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/mechanics/boundary_spec.hpp"
-
 namespace cdca {
 
 struct DomainSpec {
-  Vec2 size{0, 0};                ///< m
-  Vec2 origin{0, 0};              ///< m, lower left corner
+  Vec2 size{0, 0};                 ///< m
+  Vec2 origin{0, 0};               ///< m, lower left corner
   std::array<int, 2> cells{0, 0};  ///< elements in x and y
-  double thickness = 1.0;         ///< m
+  double thickness = 1.0;          ///< m
   bool plane_strain = false;
   LoadVector body_force;  ///< N/m^3
   int line = 0;
 };
 
 struct MaterialSpec {
-  double young = 0.0;    ///< Pa
+  double young = 0.0;  ///< Pa
   double poisson = 0.0;
   std::optional<double> tensile_strength;  ///< Pa
   std::optional<double> cohesion;          ///< Pa

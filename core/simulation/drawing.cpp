@@ -33,11 +33,13 @@ class FieldDrawer {
     const auto nodes = model_.mesh().element_nodes(e);
     const auto corners = model_.grid().corners(e);
     for (std::size_t a = 0; a < 4; ++a) {
-      const LocalId u = model_.unknowns().of_piece(nodes[a], model_.unknowns().piece(nodes[a], (a + 2) % 4, 0));
+      const LocalId u =
+          model_.unknowns().of_piece(nodes[a], model_.unknowns().piece(nodes[a], (a + 2) % 4, 0));
       const auto [it, is_new] = point_of_.try_emplace(u, std::int64_t(part_.points.size() / 2));
       if (is_new) {
         const auto k = std::size_t(u);
-        add_point(model_.grid().node_position(corners[a]), Vec2(model_.state()[k], model_.state()[k + 1]));
+        add_point(model_.grid().node_position(corners[a]),
+                  Vec2(model_.state()[k], model_.state()[k + 1]));
       }
       part_.connectivity.push_back(it->second);
     }
@@ -52,7 +54,8 @@ class FieldDrawer {
       const Vec2 inside = p + 1e-3 * (centre - p);
       basis.evaluate(p, functions_, &inside);
       part_.connectivity.push_back(std::int64_t(part_.points.size() / 2));
-      add_point(model_.grid().from_grid(corner + p), field_value(functions_, model_.state()).displacement);
+      add_point(model_.grid().from_grid(corner + p),
+                field_value(functions_, model_.state()).displacement);
     }
     finish(e, polygon.part, cut.parts, centre);
   }
@@ -72,7 +75,10 @@ class FieldDrawer {
     part_.principal.insert(part_.principal.end(), {mean + radius, mean - radius});
     part_.young.push_back(model_.material().young);
     part_.element.push_back(model_.grid().element(e));
-    part_.kind.push_back(parts > 2 ? 3 : basis.has_tip_functions() && holds_tip(e) ? 2 : parts > 1 ? 1 : 0);
+    part_.kind.push_back(parts > 2                                   ? 3
+                         : basis.has_tip_functions() && holds_tip(e) ? 2
+                         : parts > 1                                 ? 1
+                                                                     : 0);
     part_.pieces.push_back(parts);
     part_.owner.push_back(model_.mesh().rank());
   }
@@ -109,8 +115,8 @@ Vec2 side_displacement(const Model& model, const CrackFace& face, const Vec2& at
   const PartBasis basis(model.basis(), e, plus ? face.plus_part : face.minus_part);
   const Vec2 p = at - Vec2(e.i, e.j);
   const Vec2 middle = 0.5 * (face.from + face.to) - Vec2(e.i, e.j);
-  const Vec2 inside = p + 1e-3 * (middle - p) +
-                      (plus ? 1e-4 : -1e-4) * turned_left(face.to - face.from);
+  const Vec2 inside =
+      p + 1e-3 * (middle - p) + (plus ? 1e-4 : -1e-4) * turned_left(face.to - face.from);
   std::vector<BasisFunction> functions;
   basis.evaluate(p, functions, &inside);
   return field_value(functions, model.state()).displacement;
@@ -126,9 +132,11 @@ CrackPart draw_cracks(const Model& model) {
   for (LocalId k = 0; k < mesh.element_count(); ++k) {
     if (!mesh.evaluates(mesh.element(k))) continue;
     for (const CrackFace& face : model.cuts().faces_of(mesh.element(k))) {
-      const Vec2 along = (face.to - face.from).cwiseProduct(model.grid().element_size()).normalized();
+      const Vec2 along =
+          (face.to - face.from).cwiseProduct(model.grid().element_size()).normalized();
       for (const Vec2& at : {face.from, face.to}) {
-        const Vec2 jump = side_displacement(model, face, at, true) - side_displacement(model, face, at, false);
+        const Vec2 jump =
+            side_displacement(model, face, at, true) - side_displacement(model, face, at, false);
         const Vec2 x = model.grid().from_grid(at);
         part.points.insert(part.points.end(), {x.x(), x.y()});
         part.opening.push_back(jump.dot(turned_left(along)));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/equilibrium.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <cmath>
 #include <sstream>
-
-#include "core/base/errors.hpp"
 
 namespace cdca {
 
@@ -56,10 +56,12 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   for (const HeldUnknown& h : model.supports().held()) {
     const auto u = std::size_t(h.unknown);
     // of a shifted near-tip function only the pieces' unknowns carry a resultant
-    if (!h.samples.empty()) sums[2 * h.block + std::size_t(h.component)] += product[u] - external[u];
+    if (!h.samples.empty())
+      sums[2 * h.block + std::size_t(h.component)] += product[u] - external[u];
   }
   cells.communicator().sum(std::span<double>(sums));
-  for (std::size_t b = 0; 2 * b < sums.size(); ++b) result.reactions.emplace_back(sums[2 * b], sums[2 * b + 1]);
+  for (std::size_t b = 0; 2 * b < sums.size(); ++b)
+    result.reactions.emplace_back(sums[2 * b], sums[2 * b + 1]);
   return result;
 }
 

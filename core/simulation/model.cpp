@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/model.hpp"
 
-#include <sstream>
-
 #include "core/base/errors.hpp"
 #include "core/cells/bodies.hpp"
 #include "core/cracks/level_set.hpp"
+
+#include <sstream>
 
 namespace cdca {
 
@@ -59,13 +59,15 @@ void Model::refuse_hidden_cracks() const {
   std::vector<Problem> problems;
   for (std::size_t c = 0; c < spec_.cracks.size(); ++c) {
     const Crack& crack = registry_.cracks()[c];
-    if (crack.ends[0].state != TipState::active || crack.ends[1].state != TipState::active) continue;
+    if (crack.ends[0].state != TipState::active || crack.ends[1].state != TipState::active)
+      continue;
     const GridIndex a = grid_.element_at(grid_.to_grid(crack.end_point(0)));
     const GridIndex b = grid_.element_at(grid_.to_grid(crack.end_point(1)));
     if (!(a == b)) continue;
     std::ostringstream text;
-    text << "both tips of crack \"" << crack.name << "\" lie in one element (column " << a.i << ", row "
-         << a.j << "); a crack must be longer than an element: refine the grid or leave the crack out.";
+    text << "both tips of crack \"" << crack.name << "\" lie in one element (column " << a.i
+         << ", row " << a.j
+         << "); a crack must be longer than an element: refine the grid or leave the crack out.";
     problems.push_back({spec_.cracks[c].line, "crack[" + std::to_string(c) + "]", text.str()});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -79,7 +81,7 @@ void Model::refuse_loose_bodies() const {
     std::ostringstream text;
     text << (bodies.size() == 1
                  ? "the supports leave the body free to move as a rigid whole"
-                 : "the cracks cut off a part of the body that no support holds: the part at (") ;
+                 : "the cracks cut off a part of the body that no support holds: the part at (");
     if (bodies.size() > 1) text << body.at.x() << ", " << body.at.y() << ")";
     text << "; prescribe displacements that stop both translations and the rotation"
          << (bodies.size() > 1 ? " of every part." : ".");

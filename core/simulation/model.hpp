@@ -2,14 +2,14 @@
 /// The state of a run: body, cracks, cells and displacements. Everyone else borrows from it.
 #pragma once
 
-#include <memory>
-
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
 #include "core/simulation/case_spec.hpp"
+
+#include <memory>
 
 namespace cdca {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/simulation.hpp"
 
-#include <algorithm>
-
 #include "core/base/errors.hpp"
 #include "core/base/process_memory.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/simulation/drawing.hpp"
 #include "core/simulation/equilibrium.hpp"
+
+#include <algorithm>
 
 namespace cdca {
 
@@ -96,11 +96,13 @@ class Recorder {
     for (const Crack& crack : model.registry().cracks()) {
       summary_.cracks.push_back({crack.name, crack.points, crack.length()});
     }
-    const CrackNetwork n = network_of(model.registry().cracks(), model.body(), model.touch_distance());
+    const CrackNetwork n =
+        network_of(model.registry().cracks(), model.body(), model.touch_distance());
     summary_.network = {n.clusters, n.largest, n.spans_x, n.spans_y};
     summary_.events.clear();
     for (const Event& e : model.registry().events()) {
-      summary_.events.push_back({e.step, e.cycle, name_of(e.kind), e.crack, e.end, e.partner, e.at});
+      summary_.events.push_back(
+          {e.step, e.cycle, name_of(e.kind), e.crack, e.end, e.partner, e.at});
     }
   }
 
@@ -212,8 +214,8 @@ CaseMeasure measure_case(const CaseSpec& spec, Communicator& communicator,
   measure.nodes = model.grid().node_count();
   measure.unknowns = communicator.sum(std::int64_t(model.unknowns().owned()));
   // vectors of CG and of the step, index lists of the grid, and the rows of special cells
-  const std::int64_t special = communicator.sum(
-      std::int64_t(model.unknowns().owned() - 2 * model.mesh().owned_nodes()));
+  const std::int64_t special =
+      communicator.sum(std::int64_t(model.unknowns().owned() - 2 * model.mesh().owned_nodes()));
   measure.bytes = 12 * 8 * measure.unknowns + 40 * measure.nodes + 2000 * special;
   measure.active_tips = model.registry().active_tips();
   return measure;

@@ -2,10 +2,10 @@
 /// A run from the first load step to the last.
 #pragma once
 
-#include <span>
-
 #include "core/simulation/model.hpp"
 #include "core/simulation/observer.hpp"
+
+#include <span>
 
 namespace cdca {
 

@@ -2,10 +2,10 @@
 /// Brings cells into equilibrium. A solver knows cells, forces and moves only.
 #pragma once
 
+#include "core/base/cell_system.hpp"
+
 #include <memory>
 #include <span>
-
-#include "core/base/cell_system.hpp"
 
 namespace cdca {
 
@@ -25,7 +25,8 @@ class EquilibriumSolver {
  public:
   virtual ~EquilibriumSolver() = default;
   /// Solves K u = f for the unknowns that are not held; u of the held ones must be 0 and stays so.
-  /// u: start value in, result out (own cells). scale: the force that residuals are compared with, N/m.
+  /// u: start value in, result out (own cells). scale: the force that residuals are compared with,
+  /// N/m.
   virtual SolverReport solve(const CellSystem& system, std::span<const double> forces,
                              std::span<double> u, double scale) const = 0;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/solver/equilibrium_solver.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "core/solver/equilibrium_solver.hpp"
 
 namespace cdca {
 

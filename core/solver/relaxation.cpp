@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/solver/equilibrium_solver.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "core/solver/equilibrium_solver.hpp"
 
 namespace cdca {
 
@@ -17,7 +17,8 @@ class Relaxation final : public EquilibriumSolver {
                      double scale) const override {
     std::vector<double> residual(std::size_t(system.count()), 0.0);
     system.apply(u, residual);
-    for (std::size_t k = 0; k < std::size_t(system.owned()); ++k) residual[k] = forces[k] - residual[k];
+    for (std::size_t k = 0; k < std::size_t(system.owned()); ++k)
+      residual[k] = forces[k] - residual[k];
     system.clear_held(residual);
     SolverReport report;
     const int limit = options_.max_iterations > 0 ? options_.max_iterations : 1000000;

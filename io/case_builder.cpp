@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/case_builder.hpp"
+
+#include "io/case_boundaries.hpp"
+#include "io/case_cracks.hpp"
+#include "io/case_loads.hpp"
+#include "io/case_supports.hpp"
+
+#include <fmt/format.h>
+
+namespace cdca {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+/// The values of one table; what is absent (wrong and taken out, or optional) leaves its target as
+/// it is.
+class TableReader {
+ public:
+  TableReader(const ConfigNode& root, std::string_view section) : table_(root.find(section)) {}
+
+  int line() const { return table_ ? table_->line : 0; }
+  const ConfigNode* find(std::string_view key) const {
+    return table_ ? table_->find(key) : nullptr;
+  }
+
+  void read(std::string_view key, double& target) const {
+    if (const auto* node = find(key)) target = node->number;
+  }
+  void read(std::string_view key, std::optional<double>& target) const {
+    if (const auto* node = find(key)) target = node->number;
+  }
+  void read(std::string_view key, int& target) const {
+    if (const auto* node = find(key)) target = static_cast<int>(node->integer);
+  }
+  void read(std::string_view key, bool& target) const {
+    if (const auto* node = find(key)) target = node->boolean;
+  }
+  void read(std::string_view key, Vec2& target) const {
+    if (const auto* node = find(key)) target = {node->items[0].number, node->items[1].number};
+  }
+  bool says(std::string_view key, std::string_view word) const {
+    const auto* node = find(key);
+    return node && node->text == word;
+  }
+
+ private:
+  const ConfigNode* table_;
+};
+
+DomainSpec build_domain(const ConfigNode& root) {
+  const TableReader table(root, "domain");
+  DomainSpec domain;
+  table.read("size", domain.size);
+  table.read("origin", domain.origin);
+  if (const auto* cells = table.find("cells")) {
+    domain.cells = {static_cast<int>(cells->items[0].integer),
+                    static_cast<int>(cells->items[1].integer)};
+  }
+  table.read("thickness", domain.thickness);
+  domain.plane_strain = table.says("plane", "strain");
+  domain.line = table.line();
+  return domain;
+}
+
+MaterialSpec build_material(const ConfigNode& root) {
+  const TableReader table(root, "material");
+  MaterialSpec material;
+  table.read("young", material.young);
+  table.read("poisson", material.poisson);
+  table.read("tensile_strength", material.tensile_strength);
+  table.read("cohesion", material.cohesion);
+  table.read("friction_angle", material.friction_angle);
+  table.read("toughness", material.toughness);
+  material.line = table.line();
+  return material;
+}
+
+std::vector<double> equal_factors(int steps) {
+  std::vector<double> factors;
+  for (int i = 1; i <= steps; ++i) factors.push_back(static_cast<double>(i) / steps);
+  return factors;
+}
+
+std::vector<double> given_factors(const ConfigNode& list, Problems& problems) {
+  std::vector<double> factors;
+  for (const auto& item : list.items) {
+    if (!factors.empty() && item.number <= factors.back()) {
+      problems.push_back(problem_at(
+          item, fmt::format("loading.factors[{}]", factors.size()),
+          fmt::format(
+              "Found {} after {}; allowed is a greater number, since load factors increase.",
+              describe(item), toml_number(factors.back()))));
+    }
+    factors.push_back(item.number);
+  }
+  return factors;
+}
+
+std::vector<double> build_loading(const ConfigNode& root, Problems& problems) {
+  const TableReader table(root, "loading");
+  if (const auto* factors = table.find("factors")) return given_factors(*factors, problems);
+  int steps = 1;
+  table.read("steps", steps);
+  return equal_factors(steps);
+}
+
+SolverSpec build_solver(const ConfigNode& root, Problems& problems) {
+  const TableReader table(root, "solver");
+  SolverSpec solver;
+  solver.method =
+      table.says("method", "relaxation") ? SolverMethod::relaxation : SolverMethod::krylov;
+  table.read("tolerance", solver.tolerance);
+  table.read("over_relaxation", solver.over_relaxation);
+  table.read("max_iterations", solver.max_iterations);
+  const bool is_lost = table.says("method", "krylov") && solver.over_relaxation != 1.0;
+  if (is_lost) {
+    const auto& node = *table.find("over_relaxation");
+    problems.push_back(problem_at(
+        node, "solver.over_relaxation",
+        fmt::format(
+            "Found {}, but the method \"krylov\" has no over-relaxation; allowed is 1.0, or the "
+            "method \"relaxation\".",
+            describe(node))));
+  }
+  return solver;
+}
+
+OutputSpec build_output(const ConfigNode& root) {
+  const TableReader table(root, "output");
+  OutputSpec output;
+  table.read("every", output.every);
+  table.read("pictures", output.pictures);
+  return output;
+}
+
+}  // namespace
+
+CaseSpec build_case(const ConfigNode& root, std::vector<Problem>& problems) {
+  CaseSpec spec;
+  if (const auto* title = root.find("title")) spec.title = title->text;
+  spec.domain = build_domain(root);
+  spec.material = build_material(root);
+  TableReader(root, "enrichment").read("tip_radius", spec.tip_radius);
+  spec.load_factors = build_loading(root, problems);
+  spec.solver = build_solver(root, problems);
+  spec.output = build_output(root);
+  spec.cracks = build_cracks(root, spec.domain, problems);
+  if (const auto* force = TableReader(root, "domain").find("body_force")) {
+    const LoadReader loads(spec, places_in(spec.domain), problems);
+    spec.domain.body_force = loads.load_pair(*force, "domain.body_force");
+  }
+  const auto before = problems.size();
+  build_boundaries(root, spec, problems);
+  if (problems.size() == before) check_supports(root, spec, problems);
+  return spec;
+}
+
+}  // namespace cdca

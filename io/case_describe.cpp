@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/case_describe.hpp"
+
+#include <fmt/format.h>
+
+namespace cdca {
+namespace {
+
+/// A case may have thousands of cracks.
+constexpr std::size_t most_listed = 20;
+
+std::string point_text(const Vec2& at) { return fmt::format("[{:.6g}, {:.6g}]", at.x(), at.y()); }
+
+std::string line(std::string_view name, const std::string& value) {
+  return fmt::format("{:<12}{}\n", name, value);
+}
+
+std::string domain_text(const DomainSpec& domain) {
+  const Vec2 h(domain.size.x() / domain.cells[0], domain.size.y() / domain.cells[1]);
+  return line("body", fmt::format("{:.6g} x {:.6g} m from {}, {:.6g} m thick, plane {}",
+                                  domain.size.x(), domain.size.y(), point_text(domain.origin),
+                                  domain.thickness, domain.plane_strain ? "strain" : "stress")) +
+         line("cells", fmt::format("{} x {} elements of {:.6g} x {:.6g} m", domain.cells[0],
+                                   domain.cells[1], h.x(), h.y()));
+}
+
+std::string material_text(const MaterialSpec& material) {
+  std::string text = fmt::format("E = {:.6g} Pa, nu = {:.6g}", material.young, material.poisson);
+  if (material.tensile_strength)
+    text += fmt::format(", tensile strength {:.6g} Pa", *material.tensile_strength);
+  if (material.cohesion) text += fmt::format(", cohesion {:.6g} Pa", *material.cohesion);
+  if (material.friction_angle)
+    text += fmt::format(", friction angle {:.6g} degrees", *material.friction_angle);
+  if (material.toughness) text += fmt::format(", toughness {:.6g} Pa m^1/2", *material.toughness);
+  return line("material", text);
+}
+
+std::string cracks_text(const CaseSpec& spec, int tips) {
+  double total = 0.0;
+  for (const auto& crack : spec.cracks) total += length_of(crack);
+  std::string out = line("cracks", fmt::format("{}, {:.6g} m in all; active tips: {}",
+                                               spec.cracks.size(), total, tips));
+  for (std::size_t i = 0; i < spec.cracks.size() && i < most_listed; ++i) {
+    const auto& crack = spec.cracks[i];
+    out += line("", fmt::format("{}: {} points from {} to {}, {:.6g} m", crack.name,
+                                crack.points.size(), point_text(crack.points.front()),
+                                point_text(crack.points.back()), length_of(crack)));
+  }
+  if (spec.cracks.size() > most_listed)
+    out += line("", fmt::format("and {} more", spec.cracks.size() - most_listed));
+  return out;
+}
+
+std::string vector_text(std::string_view name, const LoadVector& values, std::string_view absent,
+                        std::string_view unit) {
+  if (!values[0] && !values[1]) return {};
+  const auto component = [&](int axis) {
+    return values[axis] ? values[axis]->text : std::string(absent);
+  };
+  return fmt::format(", {} [{}, {}] {}", name, component(0), component(1), unit);
+}
+
+std::string boundary_text(const BoundarySpec& boundary) {
+  std::string text = boundary.name;
+  if (boundary.kind == BoundaryKind::point) text += " " + point_text(boundary.at);
+  text += vector_text("displacement", boundary.displacement, "free", "m");
+  text += vector_text("traction", boundary.traction, "0", "Pa");
+  text += vector_text("force", boundary.force, "0", "N/m");
+  if (boundary.pressure) text += fmt::format(", pressure {} Pa", boundary.pressure->text);
+  return text;
+}
+
+std::string loads_text(const CaseSpec& spec) {
+  const auto& factors = spec.load_factors;
+  std::string out = line(
+      "loads", factors.size() == 1 ? fmt::format("1 step, load factor {:.6g}", factors.front())
+                                   : fmt::format("{} steps, load factor {:.6g} to {:.6g}",
+                                                 factors.size(), factors.front(), factors.back()));
+  for (const auto& boundary : spec.boundaries) out += line("", boundary_text(boundary));
+  const auto body_force = vector_text("body force", spec.domain.body_force, "0", "N/m^3");
+  if (!body_force.empty()) out += line("", body_force.substr(2));
+  return out;
+}
+
+}  // namespace
+
+double length_of(const CrackSpec& crack) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < crack.points.size(); ++i)
+    length += (crack.points[i + 1] - crack.points[i]).norm();
+  return length;
+}
+
+std::string bytes_text(std::int64_t bytes) {
+  constexpr std::string_view units[] = {"B", "kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1000.0 && unit + 1 < std::size(units); ++unit) value /= 1000.0;
+  return fmt::format("{:.3g} {}", value, units[unit]);
+}
+
+std::string describe_case(const CaseSpec& spec, const CaseSize& size) {
+  const bool is_krylov = spec.solver.method == SolverMethod::krylov;
+  return line("title", spec.title) + domain_text(spec.domain) + material_text(spec.material) +
+         cracks_text(spec, size.tips) +
+         line("tip radius", spec.tip_radius > 0.0 ? fmt::format("{:.6g} m", spec.tip_radius)
+                                                  : "the nodes of the tip element") +
+         loads_text(spec) +
+         line("solver", fmt::format("{}, tolerance {:.3g}", is_krylov ? "krylov" : "relaxation",
+                                    spec.solver.tolerance)) +
+         line("size", fmt::format("{} elements, {} nodes, {} unknowns", size.elements, size.nodes,
+                                  size.unknowns)) +
+         line("memory", fmt::format("about {}", bytes_text(size.bytes)));
+}
+
+}  // namespace cdca
