@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/cells/quadrature.hpp"
-#include "plates.hpp"
+#include "tests/plates.hpp"
 
 #include <cmath>
 

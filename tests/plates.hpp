@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/simulation/equilibrium.hpp"
-#include "world.hpp"
+#include "tests/world.hpp"
 
 #include <functional>
 #include <memory>

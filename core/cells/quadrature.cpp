@@ -100,7 +100,7 @@ double farthest(const Triangle& t, const Vec2& p) {
 }
 
 /// Size to which triangles are halved across a kink of the functions, in element sizes.
-constexpr double across_bends = 1.0 / 64;
+constexpr double across_bends = 1.0 / 16;
 
 void add_graded(const Triangle& t, const std::vector<SingularPlace>& tips, int depth,
                 std::vector<QuadraturePoint>& points) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <string>
 
 namespace cdca {
 namespace {
@@ -102,16 +103,18 @@ TEST(CrackRegistryTest, EndJustBeyondAFaceIsBroughtBack) {
 }
 
 TEST(CrackRegistryTest, MovingAnEndOntoAFaceIsNoCrossing) {
-  // the foot of an oblique face is rounded to one side of it or the other
+  // the foot on an oblique face is rounded to one side of it or the other
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0.1, 0.9);
+  int crossings = 0;
   for (int k = 0; k < 500; ++k) {
     const Vec2 a(1 + any(random), 1 + any(random)), b(7 + any(random), 5 + any(random));
     const Vec2 foot = a + any(random) * (b - a);
     const CrackRegistry registry = resolved({{a, b}, {foot + Vec2(-any(random), 1 + any(random)), foot}});
     ASSERT_EQ(end_of(registry, 1, 1).state, TipState::coalesced);
-    EXPECT_TRUE(events_of(registry, EventKind::crossing).empty()) << "case " << k;
+    crossings += int(events_of(registry, EventKind::crossing).size());
   }
+  EXPECT_EQ(crossings, 0) << "of 500 touching ends";
 }
 
 TEST(CrackRegistryTest, CrossingCracksKeepTheirTips) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Convergence to exact fields: M1 (near-tip field) and M2 (Westergaard) of the verification data.
 #include "core/mechanics/interaction_integral.hpp"
-#include "field_errors.hpp"
+#include "tests/field_errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Fields that the cells must carry exactly: constant strain and rigid motions, M6.
-#include "field_errors.hpp"
+#include "tests/field_errors.hpp"
 
 #include <gtest/gtest.h>
 

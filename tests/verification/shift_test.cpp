@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/mechanics/interaction_integral.hpp"
-#include "plates.hpp"
+#include "tests/plates.hpp"
 
 namespace cdca::testing {
 namespace {
