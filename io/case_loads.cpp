@@ -60,14 +60,10 @@ std::array<Vec2, 2> ends_of(const DomainSpec& domain, Side side) {
   const Vec2 low = domain.origin;
   const Vec2 high = domain.origin + domain.size;
   switch (side) {
-    case Side::left:
-      return {low, Vec2(low.x(), high.y())};
-    case Side::right:
-      return {Vec2(high.x(), low.y()), high};
-    case Side::bottom:
-      return {low, Vec2(high.x(), low.y())};
-    case Side::top:
-      return {Vec2(low.x(), high.y()), high};
+    case Side::left: return {low, Vec2(low.x(), high.y())};
+    case Side::right: return {Vec2(high.x(), low.y()), high};
+    case Side::bottom: return {low, Vec2(high.x(), low.y())};
+    case Side::top: return {Vec2(low.x(), high.y()), high};
   }
   return {low, high};
 }

@@ -21,20 +21,13 @@ std::string range_text(const OptionRange& range) {
 
 std::string value_text(const Option& option) {
   switch (option.kind) {
-    case OptionKind::text:
-      return "a text";
-    case OptionKind::choice:
-      return quoted_words(words_of(option.choices), "or");
-    case OptionKind::boolean:
-      return "true or false";
-    case OptionKind::integer:
-      return "a whole number";
-    case OptionKind::number:
-      return "a number";
-    case OptionKind::load:
-      return "a number or an expression in x, y and s";
-    case OptionKind::support:
-      return "\"free\", a number or an expression in x, y and s";
+    case OptionKind::text: return "a text";
+    case OptionKind::choice: return quoted_words(words_of(option.choices), "or");
+    case OptionKind::boolean: return "true or false";
+    case OptionKind::integer: return "a whole number";
+    case OptionKind::number: return "a number";
+    case OptionKind::load: return "a number or an expression in x, y and s";
+    case OptionKind::support: return "\"free\", a number or an expression in x, y and s";
   }
   return {};
 }
@@ -92,12 +85,9 @@ std::string allowed_text(const Option& option) {
   if (!option.unit.empty()) value += fmt::format(" in {}", option.unit);
   if (const auto range = range_text(option.range); !range.empty()) value += ", " + range;
   switch (option.shape) {
-    case OptionShape::single:
-      return value;
-    case OptionShape::pair:
-      return "a pair [x, y], each " + value;
-    case OptionShape::list:
-      return "a list of one or more values, each " + value;
+    case OptionShape::single: return value;
+    case OptionShape::pair: return "a pair [x, y], each " + value;
+    case OptionShape::list: return "a list of one or more values, each " + value;
     case OptionShape::points:
       return "a list of two or more points [x, y], each coordinate " + value;
   }

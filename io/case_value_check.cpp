@@ -45,14 +45,10 @@ std::string number_mistake(const Option& option, const ConfigNode& value) {
 bool has_type(const Option& option, const ConfigNode& value) {
   switch (option.kind) {
     case OptionKind::text:
-    case OptionKind::choice:
-      return value.kind == ConfigKind::text && !value.text.empty();
-    case OptionKind::boolean:
-      return value.kind == ConfigKind::boolean;
-    case OptionKind::integer:
-      return value.kind == ConfigKind::integer;
-    case OptionKind::number:
-      return value.is_number();
+    case OptionKind::choice: return value.kind == ConfigKind::text && !value.text.empty();
+    case OptionKind::boolean: return value.kind == ConfigKind::boolean;
+    case OptionKind::integer: return value.kind == ConfigKind::integer;
+    case OptionKind::number: return value.is_number();
     case OptionKind::load:
     case OptionKind::support:
       return value.is_number() || (value.kind == ConfigKind::text && !value.text.empty());
@@ -96,8 +92,7 @@ void check_shape(const Option& option, const ConfigNode& value, const std::strin
                  Problems& problems) {
   constexpr auto any = static_cast<std::size_t>(-1);
   switch (option.shape) {
-    case OptionShape::single:
-      return check_single(option, value, path, problems);
+    case OptionShape::single: return check_single(option, value, path, problems);
     case OptionShape::pair:
       if (is_list(option, value, 2, 2, path, problems))
         check_entries(option, value, path, problems);

@@ -57,16 +57,11 @@ std::string reason(const mu::ParserError& error) {
           "\"{}\" is unknown; allowed are x, y, s, pi and the functions sqrt, sin, cos, "
           "atan2, abs, exp, log, min and max",
           token);
-    case mu::ecUNEXPECTED_EOF:
-      return "it ends too early";
-    case mu::ecMISSING_PARENS:
-      return "a bracket is left open";
-    case mu::ecTOO_FEW_PARAMS:
-      return fmt::format("{} needs more arguments", token);
-    case mu::ecTOO_MANY_PARAMS:
-      return fmt::format("{} has too many arguments", token);
-    case mu::ecMISSING_ELSE_CLAUSE:
-      return "a conditional has no part after \":\"";
+    case mu::ecUNEXPECTED_EOF: return "it ends too early";
+    case mu::ecMISSING_PARENS: return "a bracket is left open";
+    case mu::ecTOO_FEW_PARAMS: return fmt::format("{} needs more arguments", token);
+    case mu::ecTOO_MANY_PARAMS: return fmt::format("{} has too many arguments", token);
+    case mu::ecMISSING_ELSE_CLAUSE: return "a conditional has no part after \":\"";
     default:
       return token.empty() ? "it is not complete" : fmt::format("\"{}\" cannot stand there", token);
   }

@@ -53,6 +53,19 @@ std::vector<CrackFace> ElementCuts::faces_of(GridIndex element) const {
   return faces;
 }
 
+std::vector<CrackFace> ElementCuts::faces_at(GridIndex e) const {
+  std::vector<CrackFace> faces = faces_of(e);
+  for (const GridIndex other : {GridIndex{e.i - 1, e.j}, GridIndex{e.i, e.j - 1}}) {
+    if (!grid_.has_element(other) || (!touched(e) && !touched(other))) continue;
+    std::vector<CrackFace> theirs;
+    add_side_faces(other, theirs);
+    for (const CrackFace& face : theirs) {
+      if (face.plus_element == e || face.minus_element == e) faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
 void ElementCuts::add_side_faces(GridIndex e, std::vector<CrackFace>& faces) const {
   const auto add = [&](std::size_t my_side, GridIndex other, std::size_t its_side, Vec2 start,
                        Vec2 along) {

@@ -45,6 +45,8 @@ class ElementCuts {
 
   /// Faces inside the element, and those along its right and upper side.
   std::vector<CrackFace> faces_of(GridIndex element) const;
+  /// Faces on which the element lies on one side or both.
+  std::vector<CrackFace> faces_at(GridIndex element) const;
   /// Elements that cracks touch among a list of all elements that a rank holds.
   bool touched(GridIndex element) const { return !paths_.steps_in(element).empty(); }
 

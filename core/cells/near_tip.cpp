@@ -73,18 +73,29 @@ TipFrame::Bend TipFrame::bend(double r) const {
           cross(p, d) / (r * std::max(p.dot(d), 1e-3 * r))};
 }
 
+double TipFrame::angle_from_crack(const Vec2& local, const Bend& bend, FaceSide side) const {
+  double g = std::atan2(local.y(), local.x()) - bend.angle;
+  if (g > pi) g -= 2 * pi;
+  if (g < -pi) g += 2 * pi;
+  // seen from the other face the angle goes on beyond +-pi instead of jumping
+  if (side == FaceSide::plus && g < -pi / 2) g += 2 * pi;
+  if (side == FaceSide::minus && g > pi / 2) g -= 2 * pi;
+  return g;
+}
+
+double TipFrame::angle(const Vec2& x, FaceSide side) const {
+  const Vec2 d = local(x);
+  const Bend b = bend(d.norm());
+  return angle_from_crack(d, b, side) + b.angle;
+}
+
 TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
   const Vec2 d = local(x);
   TipPolar polar;
   polar.r = d.norm();
   if (polar.r == 0.0) return polar;
   const Bend b = bend(polar.r);
-  double g = std::atan2(d.y(), d.x()) - b.angle;
-  if (g > pi) g -= 2 * pi;
-  if (g < -pi) g += 2 * pi;
-  // seen from the other face the angle goes on beyond +-pi instead of jumping
-  if (side == FaceSide::plus && g < -pi / 2) g += 2 * pi;
-  if (side == FaceSide::minus && g > pi / 2) g -= 2 * pi;
+  const double g = angle_from_crack(d, b, side);
   polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
   const Vec2 radial = (x - tip()) / polar.r;
   const double by_g = 1 - b.angle * std::sin(g) / 2, by_bend = (1 + std::cos(g)) / 2;

@@ -55,6 +55,9 @@ class TipFrame {
   /// x in m. `side` says to which face a point on (or close to) the crack belongs; plus is on the
   /// left of the way towards the tip.
   TipPolar polar(const Vec2& x, FaceSide side = FaceSide::none) const;
+  /// Angle from the tangent, from -pi + bend to pi + bend: it goes on past pi up to the faces of a
+  /// bent crack, so that fields continued by it jump across the crack and nowhere else.
+  double angle(const Vec2& x, FaceSide side = FaceSide::none) const;
   /// Unrolled for a straight crack: a point's coordinates along and across the tangent, m.
   Vec2 local(const Vec2& x) const;
 
@@ -64,6 +67,8 @@ class TipFrame {
     double slope;  ///< d angle / d r, rad/m
   };
   Bend bend(double r) const;
+  /// Angle from the crack's own direction at distance r, -pi to pi; beyond it on the given side.
+  double angle_from_crack(const Vec2& local, const Bend& bend, FaceSide side) const;
 
   std::vector<Vec2> path_;
   std::vector<double> radius_;  ///< distance of every path point from the tip

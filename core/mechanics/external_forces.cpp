@@ -116,6 +116,9 @@ ExternalLoads loads_at(const std::vector<BoundarySpec>& blocks, const LoadVector
                        const std::vector<std::string>& crack_names, double s) {
   ExternalLoads loads;
   for (const BoundarySpec& b : blocks) {
+    if (b.kind == BoundaryKind::side && any(b.displacement)) {
+      loads.held_sides[std::size_t(b.side)] = true;
+    }
     if (b.kind == BoundaryKind::side && any(b.traction)) {
       loads.tractions.push_back(
           {b.side, [&b, s](const Vec2& x) { return value_of(b.traction, x, s); }});

@@ -5,6 +5,7 @@
 #include "core/cells/part_basis.hpp"
 #include "core/mechanics/boundary_spec.hpp"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct ExternalLoads {
   std::vector<PointForce> forces;
   std::function<Vec2(const Vec2& x)> body;  ///< N/m^3; empty: none
   std::vector<FaceLoad> faces;
+  std::array<bool, 4> held_sides{};  ///< by Side: displacements are prescribed, tractions unknown
 };
 
 /// The loads of the blocks at load factor s. crack_names: by number.

@@ -2,6 +2,7 @@
 #include "core/mechanics/interaction_integral.hpp"
 
 #include "core/cells/quadrature.hpp"
+#include "core/mechanics/side_walk.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,6 @@
 namespace cdca {
 
 namespace {
-
-constexpr double wanted_radius = 5.0;    ///< element sizes
-constexpr double smallest_radius = 2.0;  ///< element sizes
 
 /// The weight q of the domain and its slope.
 struct Plateau {
@@ -31,7 +29,7 @@ double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
   return (a + nearest_fraction(a, b, x) * (b - a) - x).norm();
 }
 
-/// How far the domain of a tip may reach.
+/// How far the domain of a tip may reach without meeting anything.
 double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks,
                    const TipZone& zone) {
   const Vec2 x = zone.frame.tip();
@@ -49,6 +47,18 @@ double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks,
   }
   return 0.999 * r;
 }
+
+Eigen::Matrix2d tensor(const Voigt& s) {
+  Eigen::Matrix2d t;
+  t << s[0], s[2], s[2], s[1];
+  return t;
+}
+
+/// The computed field at a place, in the axes of the tip.
+struct ActualField {
+  Eigen::Matrix2d stress;
+  Eigen::Matrix2d gradient;
+};
 
 /// Sums of one tip, in its own axes.
 class TipIntegral {
@@ -71,12 +81,22 @@ class TipIntegral {
         const GridIndex e{i, j};
         if (!c_.mesh.evaluates(e) || c_.mesh.find_element(e) < 0) continue;
         for (int part = 0; part < c_.cuts.parts(e); ++part) add_part(e, part, m);
-        add_faces(e, m);
+        for (const CrackFace& face : c_.cuts.faces_at(e)) {
+          if (face.plus_element == e) add_face(face, true, m);
+          if (face.minus_element == e) add_face(face, false, m);
+        }
+        add_rim(e, m);
       }
     }
   }
 
  private:
+  ActualField actual(const PartBasis& basis, const Vec2& p, const Vec2* inside = nullptr) {
+    basis.evaluate(p, functions_, inside);
+    const Eigen::Matrix2d g = axes_ * field_value(functions_, state_).gradient * axes_.transpose();
+    return {tensor(material_.stress(g)), g};
+  }
+
   void add_part(GridIndex e, int part, double m[2]) {
     const StructuredGrid& grid = c_.mesh.grid();
     const PartBasis basis(c_, e, part);
@@ -92,56 +112,120 @@ class TipIntegral {
       const Vec2 dq = q_.slope(r) / r * d;
       const bool flat = dq.isZero(0.0);
       if (flat && !loads_.body) continue;
-      Voigt s = Voigt::Zero();
-      Eigen::Matrix2d g = Eigen::Matrix2d::Zero();
-      if (!flat) {
-        basis.evaluate(point.at, functions_);
-        g = axes_ * field_value(functions_, state_).gradient * axes_.transpose();
-        s = material_.stress(g);
-      }
+      const ActualField field = flat ? ActualField{} : actual(basis, point.at);
       for (int mode = 0; mode < 2; ++mode) {
-        const WilliamsField aux = williams_field(material_, mode + 1, r, std::atan2(d.y(), d.x()));
-        if (!flat) m[mode] += w * domain_term(s, g, aux, dq);
-        if (loads_.body)
-          m[mode] -= w * q_.value(r) * (axes_ * loads_.body(x)).dot(aux.gradient.col(0));
-      }
-    }
-  }
-
-  /// (s_ij u'_i,1 + s'_ij u_i,1 - s_ij e'_ij d_1j) q,_j
-  static double domain_term(const Voigt& s, const Eigen::Matrix2d& g, const WilliamsField& aux,
-                            const Vec2& dq) {
-    Eigen::Matrix2d sigma, sigma_aux;
-    sigma << s[0], s[2], s[2], s[1];
-    sigma_aux << aux.stress[0], aux.stress[2], aux.stress[2], aux.stress[1];
-    const Vec2 flux = sigma * aux.gradient.col(0) + sigma_aux * g.col(0);
-    return flux.dot(dq) - sigma.cwiseProduct(aux.gradient).sum() * dq.x();
-  }
-
-  void add_faces(GridIndex e, double m[2]) {
-    const StructuredGrid& grid = c_.mesh.grid();
-    const Vec2 tip = grid.to_grid(zone_.frame.tip());
-    for (const CrackFace& face : c_.cuts.faces_of(e)) {
-      for (const FaceLoad& load : loads_.faces) {
-        if (load.crack != face.crack || face.crack != zone_.crack) continue;
-        const Vec2 along = (face.to - face.from).cwiseProduct(grid.element_size());
-        const Vec2 n = turned_left(along).normalized();
-        // the left of the crack is the left of the way to the tip at end 1, the right at end 0
-        const double plus_angle = zone_.end == 1 ? std::numbers::pi : -std::numbers::pi;
-        for (const QuadraturePoint& point : line_quadrature(face.from, face.to, {{tip, {}}})) {
-          const Vec2 x = grid.from_grid(point.at);
-          const double r = zone_.frame.local(x).norm();
-          if (r >= q_.radius || r == 0.0) continue;
-          const Vec2 t = axes_ * load.on_plus(x, n);
-          for (int mode = 0; mode < 2; ++mode) {
-            const auto plus = williams_field(material_, mode + 1, r, plus_angle);
-            const auto minus = williams_field(material_, mode + 1, r, -plus_angle);
-            m[mode] -= point.weight * along.norm() * q_.value(r) *
-                       t.dot(plus.gradient.col(0) - minus.gradient.col(0));
-          }
+        const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
+        if (!flat) m[mode] += w * flux(field, aux).dot(dq);
+        if (loads_.body) {
+          m[mode] -= w * q_.value(r) * Vec2(axes_ * loads_.body(x)).dot(aux.gradient.col(0));
         }
       }
     }
+  }
+
+  /// P_j
+  static Vec2 flux(const ActualField& field, const WilliamsField& aux) {
+    Vec2 p = field.stress * aux.gradient.col(0) + tensor(aux.stress) * field.gradient.col(0);
+    p.x() -= field.stress.cwiseProduct(aux.gradient).sum();
+    return p;
+  }
+
+  /// P_j m_j with a known traction t_i instead of s_ij m_j.
+  static double flux_out(const ActualField& field, const WilliamsField& aux, const Vec2& m,
+                         const Vec2& t) {
+    return t.dot(aux.gradient.col(0)) + Vec2(tensor(aux.stress) * m).dot(field.gradient.col(0)) -
+           field.stress.cwiseProduct(aux.gradient).sum() * m.x();
+  }
+
+  /// Behind the tip the primed field leaves the faces free, as far as the crack is straight.
+  bool on_straight_part(const CrackFace& face) const {
+    if (face.crack != zone_.crack) return false;
+    const StructuredGrid& grid = c_.mesh.grid();
+    for (const Vec2& end : {face.from, face.to}) {
+      const Vec2 d = zone_.frame.local(grid.from_grid(end));
+      const double limit = 1e-5 * grid.smallest_side();
+      if (std::abs(d.y()) > limit || d.x() > limit) return false;
+      if (d.norm() > zone_.frame.straight_length() + limit) return false;
+    }
+    return true;
+  }
+
+  void add_face(const CrackFace& face, bool plus, double m[2]) {
+    const bool straight = on_straight_part(face);
+    const FaceLoad* load = nullptr;
+    for (const FaceLoad& l : loads_.faces) {
+      if (l.crack == face.crack) load = &l;
+    }
+    if (straight && !load) return;
+    const StructuredGrid& grid = c_.mesh.grid();
+    const GridIndex e = plus ? face.plus_element : face.minus_element;
+    const PartBasis basis(c_, e, plus ? face.plus_part : face.minus_part);
+    const Vec2 corner(e.i, e.j);
+    const Vec2 along = (face.to - face.from).cwiseProduct(grid.element_size());
+    const Vec2 n = turned_left(along).normalized();
+    const double sign = plus ? 1.0 : -1.0;
+    const Vec2 shift = 1e-3 * sign * turned_left(face.to - face.from);
+    // the left of the crack is the left of the way to the tip at end 1, the right at end 0
+    const FaceSide side = face.crack != zone_.crack  ? FaceSide::none
+                          : (zone_.end == 1) == plus ? FaceSide::plus
+                                                     : FaceSide::minus;
+    auto places = basis.tip_places();
+    places.push_back({grid.to_grid(zone_.frame.tip()) - corner, {}});
+    for (const auto& point : line_quadrature(face.from - corner, face.to - corner, places)) {
+      const Vec2 x = grid.from_grid(corner + point.at);
+      const double r = zone_.frame.local(x).norm();
+      if (r >= q_.radius || r == 0.0) continue;
+      const Vec2 t = load ? Vec2(sign * axes_ * load->on_plus(x, n)) : Vec2(0, 0);
+      const Vec2 inside = point.at + shift;
+      const ActualField field = straight ? ActualField{} : actual(basis, point.at, &inside);
+      const double w = point.weight * along.norm() * q_.value(r);
+      for (int mode = 0; mode < 2; ++mode) {
+        const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x, side));
+        m[mode] -= w * (straight ? t.dot(aux.gradient.col(0))
+                                 : flux_out(field, aux, -sign * axes_ * n, t));
+      }
+    }
+  }
+
+  void add_rim(GridIndex e, double m[2]) {
+    const StructuredGrid& grid = c_.mesh.grid();
+    const bool at[4] = {e.i == 0, e.i == grid.nx() - 1, e.j == 0, e.j == grid.ny() - 1};
+    const Side sides[4] = {Side::left, Side::right, Side::bottom, Side::top};
+    const Vec2 outward[4] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (at[k]) add_rim_side(e, sides[k], outward[k], m);
+    }
+  }
+
+  void add_rim_side(GridIndex e, Side side, const Vec2& outward, double m[2]) {
+    const StructuredGrid& grid = c_.mesh.grid();
+    const SideGeometry geometry = geometry_of(side);
+    const Vec2 corner(e.i, e.j), normal = axes_ * outward;
+    for (const SidePortion& portion : c_.cuts.side(e, geometry.element_side)) {
+      const PartBasis basis(c_, e, portion.part);
+      const Vec2 from = geometry.at(portion.t0), to = geometry.at(portion.t1);
+      const double length = (to - from).cwiseProduct(grid.element_size()).norm();
+      for (const QuadraturePoint& point : line_quadrature(from, to, basis.tip_places())) {
+        const Vec2 x = grid.from_grid(corner + point.at);
+        const double r = zone_.frame.local(x).norm();
+        if (r >= q_.radius || r == 0.0) continue;
+        const ActualField field = actual(basis, point.at);
+        const Vec2 t = loads_.held_sides[std::size_t(side)] ? Vec2(field.stress * normal)
+                                                            : traction_on(side, x);
+        for (int mode = 0; mode < 2; ++mode) {
+          const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
+          m[mode] -= point.weight * length * q_.value(r) * flux_out(field, aux, normal, t);
+        }
+      }
+    }
+  }
+
+  Vec2 traction_on(Side side, const Vec2& x) const {
+    Vec2 t(0, 0);
+    for (const auto& load : loads_.tractions) {
+      if (load.side == side) t += load.value(x);
+    }
+    return axes_ * t;
   }
 
   const BasisContext& c_;
@@ -156,34 +240,10 @@ class TipIntegral {
 
 }  // namespace
 
-WilliamsField williams_field(const Material& material, int mode, double r, double theta) {
-  const double kappa = material.kolosov(), mu = material.shear();
-  const double c = std::cos(theta / 2), s = std::sin(theta / 2);
-  const double c3 = std::cos(1.5 * theta), s3 = std::sin(1.5 * theta);
-  const double amplitude = std::sqrt(r / (2 * std::numbers::pi)) / (2 * mu);
-  // u = amplitude f(theta), f' its derivative
-  Vec2 f, df;
-  WilliamsField field;
-  const double root = 1 / std::sqrt(2 * std::numbers::pi * r);
-  if (mode == 1) {
-    f = {(kappa - 0.5) * c - 0.5 * c3, (kappa + 0.5) * s - 0.5 * s3};
-    df = {-0.5 * (kappa - 0.5) * s + 0.75 * s3, 0.5 * (kappa + 0.5) * c - 0.75 * c3};
-    field.stress = root * Voigt(c * (1 - s * s3), c * (1 + s * s3), c * s * c3);
-  } else {
-    f = {(kappa + 1.5) * s + 0.5 * s3, -(kappa - 1.5) * c - 0.5 * c3};
-    df = {0.5 * (kappa + 1.5) * c + 0.75 * c3, 0.5 * (kappa - 1.5) * s + 0.75 * s3};
-    field.stress = root * Voigt(-s * (2 + c * c3), s * c * c3, c * (1 - s * s3));
-  }
-  const Vec2 radial(std::cos(theta), std::sin(theta));
-  field.displacement = amplitude * f;
-  field.gradient =
-      amplitude / r * (0.5 * f * radial.transpose() + df * turned_left(radial).transpose());
-  return field;
-}
-
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
-    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator) {
+    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator,
+    const DomainReach& reach) {
   const StructuredGrid& grid = context.mesh.grid();
   const double h = grid.element_size().maxCoeff();
   std::vector<double> sums(2 * context.zones.size(), 0.0);
@@ -191,7 +251,7 @@ std::vector<StressIntensity> stress_intensities(
   for (std::size_t z = 0; z < context.zones.size(); ++z) {
     const TipZone& zone = context.zones[z];
     const double room = free_radius(grid, cracks, zone);
-    const double radius = std::max(std::min(wanted_radius * h, room), smallest_radius * h);
+    const double radius = std::max(std::min(reach.wanted * h, room), reach.smallest * h);
     TipIntegral(context, zone, material, loads, state, radius).add(&sums[2 * z]);
     found.push_back({zone.crack, zone.end, 0.0, 0.0, radius});
   }

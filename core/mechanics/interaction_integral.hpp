@@ -5,6 +5,7 @@
 #include "core/cracks/crack_registry.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
+#include "core/mechanics/williams.hpp"
 
 #include <vector>
 
@@ -20,23 +21,28 @@ struct StressIntensity {
   double radius = 0.0;  ///< of the domain, m
 };
 
-/// The near-tip field of Williams for K_I = 1 or K_II = 1 (mode 1 or 2) in the axes of the tip.
-struct WilliamsField {
-  Vec2 displacement;         ///< m per Pa m^1/2
-  Eigen::Matrix2d gradient;  ///< of the displacement
-  Voigt stress;              ///< per Pa m^1/2
+/// How far the domain reaches from the tip, in element sizes: as far as wanted, less where a rim,
+/// another crack or a bend of the crack itself comes nearer, but never less than the smallest.
+struct DomainReach {
+  double wanted = 5.0;
+  double smallest = 4.0;
 };
-WilliamsField williams_field(const Material& material, int mode, double r, double theta);
 
 /// Of every active tip, in the order of the zones; the same on all ranks. Collective.
 ///
-/// M = int (s_ij u'_i,1 + s'_ij u_i,1 - s_ij e'_ij d_1j) q,_j dA - int b_i u'_i,1 q dA
-///     - int over faces t_i u'_i,1 q ds,   K = E' M / 2,
-/// with the primed near-tip field of one mode; q falls smoothly from 1 to 0 between half the radius
-/// and the radius. The domain is kept off the rim, other cracks and bends of the crack itself.
+/// With P_j = s_ij u'_i,1 + s'_ij u_i,1 - s_ik e'_ik d_1j, the primed near-tip field of one mode,
+/// and q falling smoothly from 1 to 0 between half the radius and the radius,
+///
+///     M = int P_j q,_j dA - int b_i u'_i,1 q dA - int P_j m_j q ds,   K = E' M / 2.
+///
+/// The last integral is over all faces and rims inside the domain, m out of the material and
+/// s_ij m_j = t_i the traction there; on the straight faces behind the tip only t_i u'_i,1 is left
+/// of it. The primed field is continued up to the faces of a bent crack, so the formula is exact
+/// with bends, other cracks and rims inside the domain.
 /// state: with ghosts.
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
-    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator);
+    const ExternalLoads& loads, std::span<const double> state, Communicator& communicator,
+    const DomainReach& reach = {});
 
 }  // namespace cdca

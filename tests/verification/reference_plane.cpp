@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/verification/reference_plane.hpp"
+
+#include "core/simulation/drawing.hpp"
+
+#include <Eigen/LU>
+
+#include <numbers>
+
+namespace cdca::testing {
+
+PlaneRim::PlaneRim(const Material& material, const Voigt& far_stress)
+    : poisson_((3 - material.kolosov()) / 4) {
+  const Voigt e = material.elastic_matrix().inverse() * far_stress;  // the last one is 2 eps_xy
+  far_strain_ << e[0], e[2] / 2, e[2] / 2, e[1];
+}
+
+void PlaneRim::hold(CaseSpec& spec) const {
+  hold_rim(spec, [this](const Vec2& x) { return displacement(x); });
+}
+
+void PlaneRim::take_jumps(const Model& model) {
+  const CrackPart faces = draw_cracks(model);
+  jumps_.clear();
+  for (std::size_t k = 0; k < faces.crack.size(); ++k) {
+    const Vec2 from(faces.points[4 * k], faces.points[4 * k + 1]);
+    const Vec2 to(faces.points[4 * k + 2], faces.points[4 * k + 3]);
+    const Vec2 along = (to - from).normalized(), normal = turned_left(along);
+    const double opening = 0.5 * (faces.opening[2 * k] + faces.opening[2 * k + 1]);
+    const double slip = 0.5 * (faces.slip[2 * k] + faces.slip[2 * k + 1]);
+    jumps_.push_back(
+        {0.5 * (from + to), (to - from).norm() * normal, opening * normal + slip * along});
+  }
+}
+
+Vec2 PlaneRim::displacement(const Vec2& x) const {
+  Vec2 u = far_strain_ * x;
+  for (const Jump& j : jumps_) {
+    const double r = (j.at - x).norm();
+    const Vec2 d = (j.at - x) / r;
+    // [u]_i S_ijk n_j with S_ijk = -((1 - 2 nu)(D_ik d_j + D_jk d_i - D_ij d_k) + 2 d_i d_j d_k)
+    //                              / (4 pi (1 - nu) r)
+    const double dn = d.dot(j.normal), dj = d.dot(j.jump);
+    const Vec2 sum =
+        (1 - 2 * poisson_) * (dn * j.jump + dj * j.normal - j.jump.dot(j.normal) * d) +
+        2 * dj * dn * d;
+    u -= sum / (4 * std::numbers::pi * (1 - poisson_) * r);
+  }
+  return u;
+}
+
+}  // namespace cdca::testing

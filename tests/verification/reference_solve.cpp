@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/verification/reference_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace cdca::testing {
+
+namespace {
+
+constexpr double elements_per_crack = 20.0;
+constexpr double elements_of_room = 8.0;
+constexpr double enriched_elements = 4.0;
+constexpr double margin = 2.0;  ///< of an infinite plane, in longest half lengths
+constexpr double rim_change = 2e-5;  ///< of K, between two rims of an infinite plane
+constexpr int most_solves = 12;
+
+void add_traction(CaseSpec& spec, Side side, const Field& traction) {
+  BoundarySpec b = on_side(side);
+  b.traction = field_load(traction);
+  spec.boundaries.push_back(b);
+}
+
+/// Bending moment: sigma_yy = 1 - 2x on both ends of the plate 0 <= x <= 1.
+void bend(CaseSpec& spec) {
+  pull(spec, {0, 0, 0});  // the supports
+  add_traction(spec, Side::top, [](const Vec2& x) { return Vec2(0, 1 - 2 * x.x()); });
+  add_traction(spec, Side::bottom, [](const Vec2& x) { return Vec2(0, 2 * x.x() - 1); });
+}
+
+/// tau = 1 along the top, bottom held.
+void shear_held_plate(CaseSpec& spec) {
+  spec.material.poisson = 0.25;
+  BoundarySpec held = on_side(Side::bottom);
+  held.displacement = constant_load(0, 0);
+  spec.boundaries.push_back(held);
+  add_traction(spec, Side::top, [](const Vec2&) { return Vec2(1, 0); });
+}
+
+double largest_change(const std::vector<StressIntensity>& a,
+                      const std::vector<StressIntensity>& b) {
+  double change = 0.0, largest = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    change = std::max({change, std::abs(a[k].k1 - b[k].k1), std::abs(a[k].k2 - b[k].k2)});
+    largest = std::max({largest, std::abs(a[k].k1), std::abs(a[k].k2)});
+  }
+  return change / largest;
+}
+
+void settle_rim(SolvedReference& s, const EquilibriumSolver& solver) {
+  for (; s.solves < most_solves; ++s.solves) {
+    s.rim->take_jumps(*s.model);
+    find_equilibrium(*s.model, solver, 1.0);
+    const auto tips = tips_of(*s.model);
+    const double change = largest_change(s.tips, tips);
+    s.tips = tips;
+    if (change < rim_change) return;
+  }
+  throw std::runtime_error("the rim of the infinite plane does not settle");
+}
+
+}  // namespace
+
+double ReferenceGrid::cost(const ReferenceGeometry& g) const {
+  return double(nx) * ny * std::max(nx, ny) * (g.infinite ? 3 : 1);
+}
+
+ReferenceGrid grid_of(const ReferenceGeometry& g) {
+  ReferenceGrid grid{g.lower, g.upper};
+  if (g.infinite) {
+    grid.lower = grid.upper = g.cracks.at(0).points.at(0);
+    for (const auto& crack : g.cracks) {
+      for (const Vec2& x : crack.points) {
+        grid.lower = grid.lower.cwiseMin(x);
+        grid.upper = grid.upper.cwiseMax(x);
+      }
+    }
+    grid.lower.array() -= margin * g.longest();
+    grid.upper.array() += margin * g.longest();
+  }
+  const double h = std::min(g.shortest() / elements_per_crack, g.room() / elements_of_room);
+  const Vec2 size = grid.upper - grid.lower;
+  grid.nx = int(std::ceil(size.x() / h - 1e-9));
+  grid.ny = int(std::ceil(size.y() / h - 1e-9));
+  grid.tip_radius = enriched_elements * h;
+  return grid;
+}
+
+CaseSpec spec_of(const ReferenceGeometry& g, const ReferenceLoad& load, const ReferenceGrid& grid) {
+  CaseSpec spec = plate(grid.lower, grid.upper, grid.nx, grid.ny);
+  spec.tip_radius = grid.tip_radius;
+  spec.solver.tolerance = 1e-8;
+  for (const auto& crack : g.cracks) add_crack(spec, crack.points);
+  if (g.infinite) return spec;
+  switch (load.kind) {
+    case ReferenceLoad::Kind::stress: pull(spec, load.stress); break;
+    case ReferenceLoad::Kind::bending: bend(spec); break;
+    case ReferenceLoad::Kind::edge_shear: shear_held_plate(spec); break;
+  }
+  return spec;
+}
+
+std::vector<StressIntensity> tips_of(const Model& model) {
+  return stress_intensities(model.basis(), model.registry().cracks(), model.material(),
+                            model.loads(1.0), model.state(), model.communicator());
+}
+
+SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad& load,
+                                const ReferenceGrid& grid) {
+  SolvedReference s;
+  s.spec = std::make_unique<CaseSpec>(spec_of(g, load, grid));
+  if (g.infinite) {
+    const Material material{s.spec->material.young, s.spec->material.poisson,
+                            s.spec->domain.plane_strain};
+    s.rim = std::make_unique<PlaneRim>(material, load.stress);
+    s.rim->hold(*s.spec);
+  }
+  s.model = built(*s.spec);
+  const auto solver = make_solver(s.spec->solver);
+  find_equilibrium(*s.model, *solver, 1.0);
+  s.tips = tips_of(*s.model);
+  if (g.infinite) settle_rim(s, *solver);
+  return s;
+}
+
+const StressIntensity& tip_at(const SolvedReference& solved, const Vec2& at) {
+  const double limit = 1e-3 * solved.model->grid().smallest_side();
+  for (const StressIntensity& tip : solved.tips) {
+    const Crack& crack = solved.model->registry().cracks()[std::size_t(tip.crack)];
+    if ((crack.end_point(tip.end) - at).norm() < limit) return tip;
+  }
+  throw std::runtime_error("the reference names a tip that is not there");
+}
+
+}  // namespace cdca::testing

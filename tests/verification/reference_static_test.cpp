@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Every case of tests/verification/reference/cases.json whose tag is handled, within the tolerance
+/// written there; one test per case, so that none is forgotten.
+#include "tests/verification/reference_report.hpp"
+#include "tests/verification/reference_solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace cdca::testing {
+namespace {
+
+using Runner = std::function<ReferenceResult(const ReferenceCase&)>;
+
+/// Cases that take longer (about two seconds) are in the slow suite.
+constexpr double quick_cost = 6e6;
+
+std::string size_of(const ReferenceGrid& grid) {
+  return std::to_string(grid.nx) + " x " + std::to_string(grid.ny);
+}
+
+ReferenceResult stress_intensity(const ReferenceCase& c) {
+  const ReferenceGeometry g = geometry_of(c);
+  const ReferenceGrid grid = grid_of(g);
+  const SolvedReference s = solve_reference(g, load_of(c), grid);
+  const auto expected = expected_tips(c);
+  EXPECT_EQ(expected.size(), s.tips.size()) << "a tip without reference";
+  auto computed = expected;
+  for (ExpectedTip& tip : computed) {
+    const StressIntensity& k = tip_at(s, tip.at);
+    tip.k1 = k.k1;
+    tip.k2 = k.k2;
+  }
+  if (g.infinite) std::cout << c.id << ": rim settled after " << s.solves << " solves\n";
+  return {c.id, size_of(grid), compare_tips(expected, computed, tolerance_of(c)), ""};
+}
+
+/// Stresses ahead of the tip and on the ring r = 1 round it, as far as they are two elements away.
+/// Errors relative to the length of (xx, yy, xy) at the place.
+ReferenceResult near_tip_stress(const ReferenceCase& c) {
+  const ReferenceGeometry g = geometry_of(c);
+  ReferenceGrid grid = grid_of(g);
+  constexpr double h = 0.25;  // a/48: two elements are the second place of the table
+  grid.nx = int(std::lround((g.upper.x() - g.lower.x()) / h));
+  grid.ny = int(std::lround((g.upper.y() - g.lower.y()) / h));
+  const SolvedReference s = solve_reference(g, load_of(c), grid);
+  const Vec2 tip = g.cracks.at(0).points.back();
+  const double allowed = tolerance_of(c).stress_rel.value();
+  ReferenceResult result{c.id, size_of(grid), {}, ""};
+  const auto compare = [&](double r, double degrees, const Voigt& reference, int components) {
+    if (r < 2 * h) return;
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec2 x = tip + r * Vec2(std::cos(angle), std::sin(angle));
+    const Voigt stress = s.model->material().stress(s.model->field_at(x).gradient);
+    std::ostringstream place;
+    place << "r = " << r << ", " << degrees << " deg";
+    const char* const names[] = {"sigma_x", "sigma_y", "sigma_xy"};
+    for (int k = 0; k < components; ++k) {
+      const double error = std::abs(stress[k] - reference[k]) / reference.norm();
+      result.comparisons.push_back(
+          {place.str(), names[k], stress[k], reference[k], error, allowed});
+    }
+  };
+  const auto& ref = c.json.at("reference");
+  for (std::size_t k = 0; k < ref.at("r_mm").size(); ++k) {
+    compare(ref.at("r_mm")[k], 0, {ref.at("sx_over_sigma")[k], ref.at("sy_over_sigma")[k], 0}, 2);
+  }
+  for (std::size_t k = 0; k < ref.at("ring_r1_theta").size(); ++k) {
+    const auto& ring = ref.at("ring");
+    compare(1.0, ref.at("ring_r1_theta")[k], {ring[0][k], ring[1][k], ring[2][k]}, 3);
+  }
+  return result;
+}
+
+/// The case is the subject of other tests, which must exist.
+Runner tested_by(const std::string& suite, const std::string& note) {
+  return [=](const ReferenceCase& c) -> ReferenceResult {
+    const auto& unit = *::testing::UnitTest::GetInstance();
+    bool found = false;
+    for (int k = 0; k < unit.total_test_suite_count(); ++k) {
+      found = found || unit.GetTestSuite(k)->name() == suite;
+    }
+    EXPECT_TRUE(found) << "no test suite " << suite;
+    return {c.id, "", {}, note};
+  };
+}
+
+/// Who runs the cases of a tag: by group where groups differ, "" for all others.
+using Runners = std::map<std::string, Runner>;
+
+const std::map<std::string, Runners>& runners_by_tag() {
+  static const std::map<std::string, Runners> runners{
+      {"static",
+       {{"", stress_intensity},
+        {"near-tip stress (paper 5.1)", near_tip_stress},
+        {"manufactured near-tip field",
+         tested_by("M1/NearTipRates", "rates: `manufactured_test.cpp`")},
+        {"manufactured Westergaard field",
+         tested_by("WestergaardRates", "rates: `manufactured_test.cpp`")}}},
+  };
+  return runners;
+}
+
+/// What the program cannot do yet, by tag; "information" asks for nothing.
+const std::vector<std::string> later_tags{"criterion", "growth", "contact", "mesh"};
+
+bool is_quick(const ReferenceCase& c) {
+  const std::string group = c.json.at("group");
+  if (group.find("manufactured") != std::string::npos) return true;
+  const ReferenceGeometry g = geometry_of(c);
+  return grid_of(g).cost(g) <= quick_cost;
+}
+
+std::vector<ReferenceCase> handled(bool quick) {
+  std::vector<ReferenceCase> chosen;
+  for (const ReferenceCase& c : reference_cases()) {
+    if (runners_by_tag().count(c.tag) > 0 && is_quick(c) == quick) chosen.push_back(c);
+  }
+  return chosen;
+}
+
+void run(const ReferenceCase& c) {
+  const Runners& runners = runners_by_tag().at(c.tag);
+  const auto own = runners.find(c.json.at("group"));
+  const ReferenceResult result = (own != runners.end() ? own->second : runners.at(""))(c);
+  std::cout << log_of(result);
+  write_row(result);
+  ASSERT_TRUE(!result.comparisons.empty() || !result.note.empty()) << "nothing was compared";
+  for (const Comparison& k : result.comparisons) {
+    EXPECT_LE(k.error, k.allowed) << k.quantity << " at " << k.place << ": " << k.computed
+                                  << ", reference " << k.reference;
+  }
+}
+
+class Reference : public ::testing::TestWithParam<ReferenceCase> {};
+TEST_P(Reference, WithinTolerance) { run(GetParam()); }
+
+class SlowReference : public ::testing::TestWithParam<ReferenceCase> {};
+TEST_P(SlowReference, WithinTolerance) { run(GetParam()); }
+
+std::string name_of_case(const ::testing::TestParamInfo<ReferenceCase>& c) {
+  return test_name(c.param);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Reference, ::testing::ValuesIn(handled(true)), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Cases, SlowReference, ::testing::ValuesIn(handled(false)), name_of_case);
+
+TEST(ReferenceFiles, EveryTagIsHandledOrKnownToComeLater) {
+  int now = 0;
+  for (const auto& [tag, count] : reference_tags()) {
+    const bool is_handled = runners_by_tag().count(tag) > 0;
+    const bool is_later = std::find(later_tags.begin(), later_tags.end(), tag) != later_tags.end();
+    if (is_handled) now += count;
+    if (is_later) std::cout << count << " entries tagged \"" << tag << "\" are not run yet\n";
+    EXPECT_NE(is_handled, is_later || tag == "information") << tag;
+  }
+  EXPECT_EQ(std::size_t(now), handled(true).size() + handled(false).size());
+}
+
+}  // namespace
+}  // namespace cdca::testing
