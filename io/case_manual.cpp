@@ -30,7 +30,11 @@ std::string default_text(const Option& option) {
 
 std::string meaning(const Option& option) {
   std::string out(option.text);
-  for (const auto& other : words_of(option.excludes)) out += fmt::format(" Not with `{}`.", other);
+  const auto others = words_of(option.excludes);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    out += i == 0 ? " Not with " : i + 1 == others.size() ? " or " : ", ";
+    out += fmt::format("`{}`{}", others[i], i + 1 == others.size() ? "." : "");
+  }
   if (!option.later.empty())
     out += fmt::format(" In later versions: {}.", quoted_words(words_of(option.later), "and"));
   if (!option.only.empty()) out += fmt::format(" This version supports {} only.", option.only);

@@ -20,14 +20,16 @@ std::string range_text(const OptionRange& range) {
 }
 
 std::string value_text(const Option& option) {
+  const auto unit = option.unit.empty() ? "" : fmt::format(" in {}", option.unit);
   switch (option.kind) {
     case OptionKind::text: return "a text";
     case OptionKind::choice: return quoted_words(words_of(option.choices), "or");
     case OptionKind::boolean: return "true or false";
     case OptionKind::integer: return "a whole number";
-    case OptionKind::number: return "a number";
-    case OptionKind::load: return "a number or an expression in x, y and s";
-    case OptionKind::support: return "\"free\", a number or an expression in x, y and s";
+    case OptionKind::number: return "a number" + unit;
+    case OptionKind::load: return "a number" + unit + " or an expression in x, y and s";
+    case OptionKind::support:
+      return "\"free\", a number" + unit + " or an expression in x, y and s";
   }
   return {};
 }
@@ -82,7 +84,6 @@ std::string quoted_words(const std::vector<std::string>& words, std::string_view
 
 std::string allowed_text(const Option& option) {
   std::string value = value_text(option);
-  if (!option.unit.empty()) value += fmt::format(" in {}", option.unit);
   if (const auto range = range_text(option.range); !range.empty()) value += ", " + range;
   switch (option.shape) {
     case OptionShape::single: return value;

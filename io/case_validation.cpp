@@ -105,11 +105,16 @@ class BlockCheck {
     if (!nearest.empty() && !block_.find(nearest)) block_.set(nearest, std::move(value));
   }
 
+  /// Of keys that replace each other, one of the command line wins over one of the file.
   void check_excluded(const Option& option) {
-    if (!was_given(option.key)) return;
     for (const auto& other : words_of(option.excludes)) {
+      const auto* mine = block_.find(option.key);
       const auto* node = block_.find(other);
-      if (!node) continue;
+      if (!mine || !node) continue;
+      if (mine->from_command_line != node->from_command_line) {
+        block_.erase(mine->from_command_line ? std::string_view(other) : option.key);
+        continue;
+      }
       problems_.push_back(problem_at(
           *node, joined_path(path_, other),
           fmt::format("The keys \"{}\" and \"{}\" contradict each other; allowed is one of them.",

@@ -33,6 +33,7 @@ class UnionFind {
 struct LocalBody {
   std::int64_t label = 0;  ///< number of the set over all ranks
   std::int64_t pieces = 0;
+  std::uint64_t marks = 0;
   double x = 0.0, y = 0.0;  ///< m
   double rigid[6] = {};     ///< upper triangle of the supports' hold on (u_x, u_y, turn)
 };
@@ -79,6 +80,7 @@ class PieceGraph {
     }
   }
   std::int64_t vertex(LocalId node, int piece) const { return first_[std::size_t(node)] + piece; }
+  const std::vector<std::int64_t>& first() const { return first_; }
   std::int64_t set_of(LocalId node, int piece) { return sets_.find(vertex(node, piece)); }
 
  private:
@@ -143,8 +145,8 @@ std::vector<SameBody> across_borders(const BasisContext& c, PieceGraph& graph,
 
 }  // namespace
 
-std::vector<Body> find_bodies(const BasisContext& c, const std::vector<char>& held,
-                              Communicator& communicator) {
+Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks& marks,
+               Communicator& communicator) {
   PieceGraph graph(c);
   const auto label = label_sets(c, graph, communicator);
   std::map<std::int64_t, LocalBody> mine;
@@ -156,6 +158,7 @@ std::vector<Body> find_bodies(const BasisContext& c, const std::vector<char>& he
         body.x = x.x();
         body.y = x.y();
       }
+      body.marks |= marks(n, p);
       const LocalId u = c.unknowns.of_piece(n, p);
       for (int component = 0; component < 2; ++component) {
         if (held[std::size_t(u + component)]) add_hold(c, n, component, body);
@@ -181,13 +184,20 @@ std::vector<Body> find_bodies(const BasisContext& c, const std::vector<char>& he
     LocalBody& into = merged[sets.find(body.label)];
     if (into.pieces == 0) into.x = body.x, into.y = body.y;
     into.pieces += body.pieces;
+    into.marks |= body.marks;
     for (std::size_t k = 0; k < 6; ++k) into.rigid[k] += body.rigid[k];
   }
-  std::vector<Body> bodies;
+  std::map<std::int64_t, std::size_t> number;
   for (const auto& [name, body] : merged) {
-    bodies.push_back({Vec2(body.x, body.y), body.pieces, holds_all(body.rigid)});
+    number[name] = list_.size();
+    list_.push_back({Vec2(body.x, body.y), body.pieces, holds_all(body.rigid), body.marks});
   }
-  return bodies;
+  first_ = graph.first();
+  for (LocalId n = 0; n < c.mesh.node_count(); ++n) {
+    for (int p = 0; p < c.unknowns.pieces(n); ++p) {
+      of_vertex_.push_back(number.at(sets.find(label.at(graph.set_of(n, p)))));
+    }
+  }
 }
 
 }  // namespace cdca

@@ -4,18 +4,40 @@
 
 #include "core/cells/part_basis.hpp"
 
+#include <cstdint>
+#include <functional>
+#include <vector>
+
 namespace cdca {
 
 /// A connected set of pieces of cells.
 struct Body {
   Vec2 at{0, 0};  ///< m, a place in it
   std::int64_t pieces = 0;
-  bool held = false;  ///< its supports stop all three rigid motions
+  bool held = false;        ///< its supports stop all three rigid motions
+  std::uint64_t marks = 0;  ///< of all its pieces
 };
 
-/// All bodies of the grid, the same list on every rank. held: per unknown, as supports prescribe
-/// it. Collective.
-std::vector<Body> find_bodies(const BasisContext& context, const std::vector<char>& held,
-                              Communicator& communicator);
+/// All bodies of the grid, the same list on every rank, and which of them the pieces of this rank
+/// belong to.
+class Bodies {
+ public:
+  /// Marks of a piece, one bit for everything that touches it.
+  using Marks = std::function<std::uint64_t(LocalId node, int piece)>;
+
+  /// held: per unknown, as supports prescribe it. Collective.
+  Bodies(const BasisContext& context, const std::vector<char>& held, const Marks& marks,
+         Communicator& communicator);
+
+  const std::vector<Body>& list() const { return list_; }
+  std::size_t body_of(LocalId node, int piece) const {
+    return of_vertex_[std::size_t(first_[std::size_t(node)] + piece)];
+  }
+
+ private:
+  std::vector<Body> list_;
+  std::vector<std::int64_t> first_;     ///< first piece of every node
+  std::vector<std::size_t> of_vertex_;  ///< body of every piece
+};
 
 }  // namespace cdca

@@ -60,7 +60,8 @@ std::ptrdiff_t StiffnessRows::find(LocalId u) const {
 }
 
 CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& elastic,
-                             const std::vector<char>& held, Communicator& communicator)
+                             const std::vector<char>& held, const std::vector<char>& loose,
+                             StiffnessCache& cache, Communicator& communicator)
     : communicator_(communicator),
       halo_(communicator, context.unknowns.shared(context.mesh)),
       owned_(context.unknowns.owned()),
@@ -69,7 +70,8 @@ CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& e
   std::vector<char> regular(std::size_t(mesh.node_count()), 0);
   for (LocalId n = 0; n < mesh.owned_nodes(); ++n) regular[std::size_t(n)] = is_regular(context, n);
   regular_ = RegularRuns(mesh, regular, plain_stiffness(mesh.grid().element_size(), elastic));
-  build_rows(context, elastic, regular);
+  build_rows(context, elastic, regular, cache);
+  if (!loose.empty()) add_springs(loose);
   build_groups(context, held, regular);
   order_items();
   for (LocalId u = 0; u < owned_; ++u) {
@@ -78,7 +80,7 @@ CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& e
 }
 
 void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix& elastic,
-                               const std::vector<char>& regular) {
+                               const std::vector<char>& regular, StiffnessCache& cache) {
   const LocalMesh& mesh = context.mesh;
   const auto plain = plain_stiffness(mesh.grid().element_size(), elastic);
   std::vector<char> wanted(std::size_t(count_), 0);
@@ -113,7 +115,7 @@ void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix&
       continue;
     }
     for (int part = 0; part < context.cuts.parts(element); ++part) {
-      const PartStiffness own = part_stiffness(context, element, part, elastic);
+      const PartStiffness own = cache.of(context, element, part, elastic);
       for (std::size_t a = 0; a < own.unknowns.size(); ++a) {
         for (std::size_t b = 0; b < own.unknowns.size(); ++b) {
           add(own.unknowns[a], own.unknowns[b], own.matrix(Eigen::Index(a), Eigen::Index(b)));
@@ -122,6 +124,16 @@ void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix&
     }
   }
   rows_ = compress(entries);
+}
+
+void CellStiffness::add_springs(const std::vector<char>& loose) {
+  constexpr double weak = 1e-6;  // of the unknown's own stiffness
+  for (std::size_t r = 0; r < rows_.unknown.size(); ++r) {
+    if (!loose[std::size_t(rows_.unknown[r])] || rows_.unknown[r] >= owned_) continue;
+    for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
+      if (rows_.column[k] == rows_.unknown[r]) rows_.value[k] *= 1 + weak;
+    }
+  }
 }
 
 void CellStiffness::build_groups(const BasisContext& context, const std::vector<char>& held,

@@ -8,6 +8,7 @@
 #include "core/cells/cell_group.hpp"
 #include "core/cells/part_stiffness.hpp"
 #include "core/cells/regular_runs.hpp"
+#include "core/cells/stiffness_cache.hpp"
 
 #include <memory>
 #include <vector>
@@ -29,9 +30,11 @@ struct StiffnessRows {
 /// ghosts go to the ghosts' owners.
 class CellStiffness final : public CellSystem {
  public:
-  /// held: for every unknown, whether a support prescribes it. Collective (for the halo).
+  /// held: for every unknown, whether a support prescribes it; loose: for every unknown, whether a
+  /// weak spring holds it, because its body is held by nothing else (may be empty).
   CellStiffness(const BasisContext& context, const ElasticMatrix& elastic,
-                const std::vector<char>& held, Communicator& communicator);
+                const std::vector<char>& held, const std::vector<char>& loose,
+                StiffnessCache& cache, Communicator& communicator);
 
   LocalId owned() const override { return owned_; }
   LocalId count() const override { return count_; }
@@ -57,7 +60,8 @@ class CellStiffness final : public CellSystem {
   };
 
   void build_rows(const BasisContext& context, const ElasticMatrix& elastic,
-                  const std::vector<char>& regular);
+                  const std::vector<char>& regular, StiffnessCache& cache);
+  void add_springs(const std::vector<char>& loose);
   void build_groups(const BasisContext& context, const std::vector<char>& held,
                     const std::vector<char>& regular);
   void order_items();

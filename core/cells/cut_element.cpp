@@ -148,7 +148,7 @@ CutElement cut_element(const CrackPaths& paths, GridIndex element) {
   std::vector<TaggedSegment> segments;
   for (const int id : paths.steps_in(element)) {
     const PathStep& step = paths.steps()[std::size_t(id)];
-    segments.push_back({step.from - corner, step.to - corner, id});
+    segments.push_back({step.from - corner, step.to - corner, int(segments.size())});
   }
   const PlanarSubdivision plane(segments);
   const std::size_t count = plane.polygons().size();
@@ -188,7 +188,8 @@ std::vector<SideContact> contacts(const std::vector<SidePortion>& first,
     for (const SidePortion& b : second) {
       const double t0 = std::max(a.t0, b.t0), t1 = std::min(a.t1, b.t1);
       if (t1 - t0 < shortest) continue;
-      found.push_back({t0, t1, a.part, b.part, !a.closed && !b.closed, std::max(a.step, b.step)});
+      found.push_back({t0, t1, a.part, b.part, !a.closed && !b.closed,
+                       a.step >= 0 ? a.step : b.step, a.step < 0});
     }
   }
   // a stretch that slivers closed from both sides is no crack where the same parts meet openly

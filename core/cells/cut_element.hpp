@@ -17,7 +17,7 @@ struct SidePortion {
   double t1 = 1.0;
   int part = 0;
   bool closed = false;  ///< a crack lies between this stretch and the neighbour element
-  int step = -1;        ///< of the crack that closes it
+  int step = -1;        ///< of those in the element: the one that closes it
 };
 
 /// A straight bit of crack between two parts of one element; the same part on both sides near a
@@ -68,7 +68,8 @@ struct SideContact {
   int first = 0;   ///< part of the first element
   int second = 0;  ///< part of the second element
   bool open = true;
-  int step = -1;  ///< of the crack that closes it, if known
+  int step = -1;  ///< of those in one of the elements: the one that closes it, if known
+  bool step_of_second = false;
 };
 
 /// Lays the portions of a common side over each other.

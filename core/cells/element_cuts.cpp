@@ -3,6 +3,21 @@
 
 namespace cdca {
 
+ElementCuts::ElementCuts(const StructuredGrid& grid, CrackPaths paths, const ElementCuts& previous)
+    : grid_(grid), paths_(std::move(paths)) {
+  for (const auto& [id, cut] : previous.cache_) {
+    const GridIndex e = grid_.element_index(id);
+    const auto now = paths_.steps_in(e), before = previous.paths_.steps_in(e);
+    bool same = now.size() == before.size();
+    for (std::size_t k = 0; same && k < now.size(); ++k) {
+      const PathStep &a = paths_.steps()[std::size_t(now[k])],
+                     &b = previous.paths_.steps()[std::size_t(before[k])];
+      same = a.from == b.from && a.to == b.to;
+    }
+    if (same) cache_.emplace(id, cut);
+  }
+}
+
 const CutElement* ElementCuts::find(GridIndex element) const {
   if (!touched(element)) return nullptr;
   const GlobalId id = grid_.element(element);
@@ -44,7 +59,7 @@ std::vector<CrackFace> ElementCuts::faces_of(GridIndex element) const {
   if (const CutElement* cut = find(element)) {
     const Vec2 corner(element.i, element.j);
     for (const InnerFace& f : cut->faces) {
-      const PathStep& step = paths_.steps()[std::size_t(f.step)];
+      const PathStep& step = paths_.step_in(element, f.step);
       faces.push_back({corner + f.from, corner + f.to, step.crack, step.segment, element, element,
                        f.plus, f.minus});
     }
@@ -72,7 +87,7 @@ void ElementCuts::add_side_faces(GridIndex e, std::vector<CrackFace>& faces) con
     if (!grid_.has_element(other) || (!touched(e) && !touched(other))) return;
     for (const SideContact& c : contacts(side(e, my_side), side(other, its_side))) {
       if (c.open) continue;
-      const PathStep& step = paths_.steps()[std::size_t(c.step)];
+      const PathStep& step = paths_.step_in(c.step_of_second ? other : e, c.step);
       CrackFace face{start + c.t0 * along,
                      start + c.t1 * along,
                      step.crack,

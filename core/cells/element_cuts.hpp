@@ -29,6 +29,8 @@ class ElementCuts {
   ElementCuts() = default;
   ElementCuts(const StructuredGrid& grid, CrackPaths paths)
       : grid_(grid), paths_(std::move(paths)) {}
+  /// Takes over the cut elements of `previous` in which the cracks have not changed.
+  ElementCuts(const StructuredGrid& grid, CrackPaths paths, const ElementCuts& previous);
 
   const StructuredGrid& grid() const { return grid_; }
   const CrackPaths& paths() const { return paths_; }

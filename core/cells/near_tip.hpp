@@ -43,6 +43,8 @@ class TipFrame {
   TipFrame(std::vector<Vec2> path, bool end_is_open);
 
   const Vec2& tip() const { return path_.front(); }
+  /// The part of the crack that the frame follows, from the tip backwards, m.
+  const std::vector<Vec2>& path() const { return path_; }
   const Vec2& tangent() const { return tangent_; }
   /// Length of the straight segment at the tip, m.
   double straight_length() const { return straight_; }

@@ -87,6 +87,15 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
   }
 }
 
+std::vector<double> PartBasis::tip_signature() const {
+  std::vector<double> signature;
+  for (const TipShape& tip : tips_) {
+    signature.push_back(double(tip.corner));
+    for (const Vec2& p : tip.zone->frame.path()) signature.insert(signature.end(), {p.x(), p.y()});
+  }
+  return signature;
+}
+
 std::vector<SingularPlace> PartBasis::tip_places() const {
   std::vector<SingularPlace> places;
   const TipZone* known = nullptr;

@@ -42,6 +42,8 @@ class PartBasis {
   /// on the side that the element shares with one of this rank's.
   void evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
                 const Vec2* inside = nullptr) const;
+  /// Numbers that tell near-tip functions apart: which corners carry them, and their crack's path.
+  std::vector<double> tip_signature() const;
   /// Tips whose functions act here, inside-the-element coordinates.
   std::vector<SingularPlace> tip_places() const;
 

@@ -41,6 +41,9 @@ class CrackPaths {
   const std::vector<PathStep>& steps() const { return steps_; }
   /// The steps inside an element or along its edges; empty for most elements.
   const std::vector<int>& steps_in(GridIndex element) const;
+  const PathStep& step_in(GridIndex element, int index) const {
+    return steps_[std::size_t(steps_in(element)[std::size_t(index)])];
+  }
   const std::vector<PathTip>& tips() const { return tips_; }
 
  private:

@@ -16,6 +16,9 @@ const char* name_of(EventKind kind) {
     case EventKind::connection: return "connection";
     case EventKind::coalescence: return "coalescence";
     case EventKind::crossing: return "crossing";
+    case EventKind::fragment: return "fragment";
+    case EventKind::unstable: return "unstable";
+    case EventKind::separated: return "separated";
   }
   return "?";
 }
@@ -120,6 +123,25 @@ void CrackRegistry::find_crossings() {
       }
     }
   }
+}
+
+void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int partner, int step,
+                            int cycle) {
+  Crack& crack = cracks_[std::size_t(c)];
+  const bool at_start = end == 0;
+  crack.points.insert(at_start ? crack.points.begin() : crack.points.end(), to);
+  crack.age.insert(at_start ? crack.age.begin() : crack.age.end(), step);
+  crack.ends[std::size_t(end)] = {state, partner};
+  if (state == TipState::active) return;
+  const EventKind kind = state == TipState::boundary    ? EventKind::boundary
+                         : state == TipState::connected ? EventKind::connection
+                                                        : EventKind::coalescence;
+  events_.push_back({step, cycle, kind, c, end, partner, to});
+}
+
+void CrackRegistry::join_end(int crack, int end, int partner) {
+  CrackEnd& met = cracks_[std::size_t(crack)].ends[std::size_t(end)];
+  if (met.state == TipState::active) met = {TipState::connected, partner};
 }
 
 int CrackRegistry::active_tips() const {

@@ -9,7 +9,15 @@
 
 namespace cdca {
 
-enum class EventKind : std::int32_t { boundary, connection, coalescence, crossing };
+enum class EventKind : std::int32_t {
+  boundary,
+  connection,
+  coalescence,
+  crossing,
+  fragment,
+  unstable,
+  separated
+};
 
 const char* name_of(EventKind kind);
 
@@ -40,6 +48,14 @@ class CrackRegistry {
   /// where they cross (4.1-4.2 at load step 0). Ends nearer than `tolerance` (m) are moved onto
   /// what they touch.
   void resolve_initial_meetings(const Rectangle& body, double tolerance);
+
+  /// Lengthens a crack at one end by a straight segment to `to` (m), which appears in load step
+  /// `step`; the end takes the given state. Ends that meet something write an event.
+  void advance(int crack, int end, const Vec2& to, TipState state, int partner, int step,
+               int cycle);
+  /// An end that another crack's tip has run into is a tip no more.
+  void join_end(int crack, int end, int partner);
+  void record(const Event& event) { events_.push_back(event); }
 
   const std::vector<Crack>& cracks() const { return cracks_; }
   const std::vector<Event>& events() const { return events_; }

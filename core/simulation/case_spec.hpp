@@ -47,6 +47,29 @@ struct SolverSpec {
   int max_iterations = 0;        ///< 0: chosen from the size of the problem
 };
 
+enum class Criterion { none, hoop, mixed };
+
+/// When, where to and how far tips grow.
+struct GrowthSpec {
+  Criterion criterion = Criterion::none;
+  double radius = 0.0;      ///< r0, m; 0: chosen from the material and the grid
+  bool full_field = false;  ///< stresses on the arc from the whole field, not from K_I and K_II
+  bool literal = false;     ///< no scaling of r0 to the toughness
+  bool fixed_step = false;  ///< otherwise as far as the stress would still break the material
+  std::array<double, 2> step_length{1.0, 4.0};  ///< limits; equal for a fixed step
+  bool step_in_metres = false;                  ///< otherwise in (smaller) element sides
+  bool corrected = true;  ///< directions are corrected until the new segment ends with K_II near 0
+  int cycles = 200;       ///< most growth cycles in one load step
+  int line = 0;
+};
+
+/// Load steps as given, or the load factor at which the next tip grows.
+struct LoadingSpec {
+  bool critical = false;
+  int max_events = 500;      ///< critical mode: growth events
+  double min_factor = 0.05;  ///< critical mode: ends below this part of the largest factor reached
+};
+
 struct OutputSpec {
   int every = 1;  ///< load steps between field files
   bool pictures = true;
@@ -61,7 +84,9 @@ struct CaseSpec {
   double tip_radius = 0.0;  ///< m; 0: the nodes of the tip element only
   std::vector<CrackSpec> cracks;
   std::vector<BoundarySpec> boundaries;
-  std::vector<double> load_factors{1.0};  ///< the factor of every load step, in order
+  std::vector<double> load_factors{1.0};  ///< of every load step, in order; prescribed mode
+  LoadingSpec loading;
+  GrowthSpec growth;
   SolverSpec solver;
   OutputSpec output;
 };

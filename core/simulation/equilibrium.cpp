@@ -53,8 +53,10 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   cells.apply(state, product);
   result.strain_energy = 0.5 * cells.dot(state, product);
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
+  result.supports.assign(all, 0.0);
   for (const HeldUnknown& h : model.supports().held()) {
     const auto u = std::size_t(h.unknown);
+    result.supports[u] = product[u] - external[u];
     // of a shifted near-tip function only the pieces' unknowns carry a resultant
     if (!h.samples.empty())
       sums[2 * h.block + std::size_t(h.component)] += product[u] - external[u];
@@ -62,6 +64,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   cells.communicator().sum(std::span<double>(sums));
   for (std::size_t b = 0; 2 * b < sums.size(); ++b)
     result.reactions.emplace_back(sums[2 * b], sums[2 * b + 1]);
+  result.external = std::move(external);
   return result;
 }
 

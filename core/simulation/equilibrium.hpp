@@ -14,6 +14,10 @@ struct Equilibrium {
   /// Force of the supports of every boundary block on the body, N per metre of thickness.
   std::vector<Vec2> reactions;
   double strain_energy = 0.0;  ///< J per metre of thickness
+  std::vector<double>
+      external;  ///< nodal forces of the loads on own cells, N per metre of thickness
+  std::vector<double>
+      supports;  ///< nodal forces of the supports, likewise; 0 where nothing is held
 };
 
 /// Starts from the model's state and leaves the new one there, ghosts included. Throws SolveError

@@ -2,9 +2,12 @@
 #include "core/simulation/model.hpp"
 
 #include "core/base/errors.hpp"
-#include "core/cells/bodies.hpp"
 #include "core/cracks/level_set.hpp"
+#include "core/cracks/segments.hpp"
+#include "core/mechanics/loaded_pieces.hpp"
+#include "core/simulation/state_transfer.hpp"
 
+#include <bit>
 #include <sstream>
 
 namespace cdca {
@@ -22,7 +25,10 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain} {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
-  build_cells(partition_cells(grid_, weights, communicator_, partitioner));
+  mesh_ = LocalMesh(grid_, partition_cells(grid_, weights, communicator_, partitioner),
+                    communicator_.rank());
+  build_cells();
+  refuse_loose_bodies();
 }
 
 Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartition& partition)
@@ -31,7 +37,9 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain} {
   place_cracks();
-  build_cells(partition);
+  mesh_ = LocalMesh(grid_, partition, communicator_.rank());
+  build_cells();
+  refuse_loose_bodies();
 }
 
 void Model::place_cracks() {
@@ -42,17 +50,60 @@ void Model::place_cracks() {
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
 }
 
-void Model::build_cells(const BlockPartition& partition) {
-  mesh_ = LocalMesh(grid_, partition, communicator_.rank());
+void Model::build_cells() {
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
   supports_ = Supports(basis(), spec_.boundaries);
   state_.assign(std::size_t(unknowns_.count()), 0.0);
-  refuse_loose_bodies();
+  find_bodies();
+}
+
+void Model::find_bodies() {
+  const LoadedPieces loaded(basis(), spec_.boundaries);
+  bodies_ = std::make_unique<Bodies>(
+      basis(), supports_.flags(unknowns_.count()),
+      [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
 }
 
 void Model::build_stiffness() {
+  cache_.begin_cycle();
   stiffness_ = std::make_unique<CellStiffness>(basis(), material_.elastic_matrix(),
-                                               supports_.flags(unknowns_.count()), communicator_);
+                                               supports_.flags(unknowns_.count()), loose_unknowns(),
+                                               cache_, communicator_);
+}
+
+void Model::lay_cracks(CrackRegistry registry) {
+  const CellUnknowns old_unknowns = std::move(unknowns_);
+  const ElementCuts old_cuts = std::move(cuts_);
+  const std::vector<TipZone> old_zones = std::move(zones_);
+  const std::vector<double> old_state = std::move(state_);
+  registry_ = std::move(registry);
+  cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()), old_cuts);
+  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  build_cells();
+  carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
+  build_stiffness();
+}
+
+std::vector<char> Model::loose_unknowns() const {
+  bool any = false;
+  for (const Body& body : bodies_->list()) any = any || !body.held;
+  if (!any) return {};
+  std::vector<char> loose(std::size_t(unknowns_.count()), 0);
+  for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
+    for (int p = 0; p < unknowns_.pieces(n); ++p) {
+      if (bodies_->list()[bodies_->body_of(n, p)].held) continue;
+      const auto u = std::size_t(unknowns_.of_piece(n, p));
+      loose[u] = loose[u + 1] = 1;
+    }
+  }
+  return loose;
+}
+
+bool Model::joins_loaded_boundaries() const {
+  for (const Body& body : bodies_->list()) {
+    if (std::popcount(body.marks) > 1) return true;
+  }
+  return false;
 }
 
 void Model::refuse_hidden_cracks() const {
@@ -75,7 +126,7 @@ void Model::refuse_hidden_cracks() const {
 
 void Model::refuse_loose_bodies() const {
   std::vector<Problem> problems;
-  const auto bodies = find_bodies(basis(), supports_.flags(unknowns_.count()), communicator_);
+  const auto& bodies = bodies_->list();
   for (const Body& body : bodies) {
     if (body.held) continue;
     std::ostringstream text;
@@ -104,6 +155,21 @@ FieldValue Model::field_at(const Vec2& x) const {
   std::vector<BasisFunction> values;
   functions.evaluate(at - Vec2(e.i, e.j), values);
   return field_value(values, state_);
+}
+
+std::optional<Voigt> Model::visible_stress(const Vec2& from, const Vec2& x) const {
+  const Rectangle inside = body();
+  if ((x.array() <= inside.lower.array()).any() || (x.array() >= inside.upper.array()).any()) {
+    return std::nullopt;
+  }
+  const GridIndex e = grid_.element_at(grid_.to_grid(x));
+  if (!mesh_.evaluates(e) || mesh_.find_element(e) < 0) return std::nullopt;
+  for (const Crack& crack : registry_.cracks()) {
+    for (std::size_t k = 0; k < crack.segments(); ++k) {
+      if (crossing_of(from, x, crack.points[k], crack.points[k + 1])) return std::nullopt;
+    }
+  }
+  return material_.stress(field_at(x).gradient);
 }
 
 }  // namespace cdca

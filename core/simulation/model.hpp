@@ -2,6 +2,7 @@
 /// The state of a run: body, cracks, cells and displacements. Everyone else borrows from it.
 #pragma once
 
+#include "core/cells/bodies.hpp"
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/mechanics/external_forces.hpp"
@@ -10,6 +11,7 @@
 #include "core/simulation/case_spec.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace cdca {
 
@@ -26,6 +28,18 @@ class Model {
 
   /// Cell stiffness of the cracks as they are now. Collective.
   void build_stiffness();
+  /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
+  /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
+  /// anew. Bodies that nothing holds any more get a weak spring. Collective.
+  void lay_cracks(CrackRegistry registry);
+
+  /// Takes over a registry that differs from the model's by its events only.
+  void replace_events(CrackRegistry registry) { registry_ = std::move(registry); }
+
+  /// Bodies into which the cracks have cut the grid.
+  const Bodies& bodies() const { return *bodies_; }
+  /// A body, and not only pieces cut off it, still joins two loaded boundaries.
+  bool joins_loaded_boundaries() const;
 
   const CaseSpec& spec() const { return spec_; }
   Communicator& communicator() const { return communicator_; }
@@ -50,10 +64,15 @@ class Model {
   const std::vector<double>& state() const { return state_; }
   /// Displacement and its gradient at a place x (m) of an element that this rank holds.
   FieldValue field_at(const Vec2& x) const;
+  /// Stress (Pa) at x, when this rank evaluates the element there, x lies in the body, and no crack
+  /// lies between it and `from`; otherwise nothing.
+  std::optional<Voigt> visible_stress(const Vec2& from, const Vec2& x) const;
 
  private:
   void place_cracks();
-  void build_cells(const BlockPartition& partition);
+  void build_cells();
+  void find_bodies();
+  std::vector<char> loose_unknowns() const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 
@@ -67,6 +86,8 @@ class Model {
   std::vector<TipZone> zones_;
   CellUnknowns unknowns_;
   Supports supports_;
+  std::unique_ptr<Bodies> bodies_;
+  StiffnessCache cache_;
   std::unique_ptr<CellStiffness> stiffness_;
   std::vector<double> state_;
 };

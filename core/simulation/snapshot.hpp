@@ -49,12 +49,14 @@ struct StepRecord {
   double load_factor = 0.0;
   std::vector<std::array<double, 2>>
       reactions;               ///< one for every boundary block that prescribes a displacement
-  double strain_energy = 0.0;  ///< J per metre of thickness
+  double strain_energy = 0.0;  ///< J
   double crack_length = 0.0;   ///< m
   int active_tips = 0;
   int growth_cycles = 0;
   int solver_iterations = 0;
-  double wall_s = 0.0;
+  double wall_s = 0.0;         ///< since the start of the run
+  double external_work = 0.0;  ///< J, since the start of the run
+  double dissipated = 0.0;     ///< J, external work that is not stored: spent on new cracks
 };
 
 /// A row of tips.csv, and a tip of summary.json.

@@ -151,6 +151,22 @@ TEST_P(NearTipTest, AreContinuousAlongRays) {
   }
 }
 
+/// The angle for fields that are continued up to the faces is the plain one but for whole turns.
+TEST_P(NearTipTest, AngleGoesOnUpToTheFaces) {
+  for (std::size_t k = 0; k + 1 < path().size(); ++k) {
+    for (const double t : {0.1, 0.6}) {
+      const Vec2 x = path()[k] + t * (path()[k + 1] - path()[k]), d = frame_.local(x);
+      const double plus = frame_.angle(x, FaceSide::plus), minus = frame_.angle(x, FaceSide::minus);
+      EXPECT_NEAR(plus - minus, 2 * pi, 1e-12);
+      for (const double angle : {plus, minus})
+        EXPECT_LT((Vec2(std::cos(angle), std::sin(angle)) - d.normalized()).norm(), 1e-12);
+      const Vec2 left = 1e-7 * turned_left(path()[k] - path()[k + 1]).normalized();
+      EXPECT_NEAR(frame_.angle(x + left), plus, 1e-5);
+      EXPECT_NEAR(frame_.angle(x - left), minus, 1e-5);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cracks, NearTipTest, ::testing::ValuesIn(cracks),
                          [](const auto& test) { return test.param.name; });
 
@@ -191,6 +207,15 @@ TEST(TipFrameTest, TipIsStraightBeforeTheFirstKink) {
   EXPECT_NEAR(frame.straight_length(), 0.5, 1e-14);
   const Vec2 x = frame.tip() + 0.49 * turned_left(frame.tangent());
   EXPECT_NEAR(frame.polar(x).theta, pi / 2, 1e-12);
+}
+
+TEST(TipFrameTest, KnowsWhereItBends) {
+  EXPECT_TRUE(TipFrame(bent_path({3.0}, {}), false).bends().empty());
+  const auto path = bent_path({0.4, 0.7, 3.0}, {70, -40});
+  const auto bends = TipFrame(path, false).bends();
+  ASSERT_EQ(bends.size(), 2u);
+  EXPECT_NEAR(bends[0], 0.4, 1e-14);
+  EXPECT_NEAR(bends[1], (path[2] - path[0]).norm(), 1e-14);
 }
 
 TEST(TipFrameTest, ReachesAsFarAsTheCrackGoesOn) {

@@ -148,6 +148,19 @@ TEST(CaseFileOverrides, WinOverTheFile) {
   EXPECT_EQ(spec.title, "Two words");
 }
 
+TEST(CaseFileOverrides, ReplaceKeysThatWouldContradictThem) {
+  EXPECT_EQ(read(plate, {"loading.factors=[0.5, 2]"}).load_factors, (std::vector{0.5, 2.0}));
+  const auto spec =
+      read(plate, {"crack[0].center=[0.5, 1]", "crack[0].length=0.5", "crack[0].angle=0",
+                   "crack[1].points=[[1, 3], [1.5, 3]]", "boundary[1].on=left"});
+  EXPECT_NEAR(spec.cracks[0].points[1].x(), 0.75, 1e-15);
+  EXPECT_EQ(spec.cracks[1].points[1], Vec2(1.5, 3.0));
+  EXPECT_EQ(spec.boundaries[1].name, "left");
+  const auto problems = problems_of(plate, {"loading.factors=[0.5, 2]", "loading.steps=3"});
+  ASSERT_EQ(problems.size(), 1u) << testing::text_of(problems);
+  EXPECT_NE(problems[0].message.find("contradict"), std::string::npos);
+}
+
 TEST(CaseFileOverrides, MakeTablesThatTheFileHasNot) {
   EXPECT_EQ(read(plate, {"enrichment.tip_radius=0.3"}).tip_radius, 0.3);
 }

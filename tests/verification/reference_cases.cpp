@@ -105,7 +105,7 @@ double distance(const ReferenceGeometry::CrackLine& crack, const Vec2& x) {
 
 }  // namespace
 
-void PrintTo(const ReferenceCase& reference, std::ostream* out) { *out << reference.id; }
+void PrintTo(const ReferenceCase& reference, std::ostream* out) { *out << test_name(reference); }
 
 std::string test_name(const ReferenceCase& reference) {
   std::string name;

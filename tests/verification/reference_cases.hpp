@@ -65,6 +65,15 @@ struct ExpectedTip {
 };
 std::vector<ExpectedTip> expected_tips(const ReferenceCase& reference);
 
+/// Stresses at a place seen from the tip, in axes with x out of the crack.
+struct ExpectedStress {
+  double r = 0.0;
+  double degrees = 0.0;
+  Voigt stress{0, 0, 0};
+  int components = 3;  ///< how many of xx, yy, xy are given
+};
+std::vector<ExpectedStress> expected_stresses(const ReferenceCase& reference);
+
 /// The tolerances that a case may name.
 struct ReferenceTolerance {
   std::optional<double> k_rel, k2_over_max, k_over_max, k_rel_of_max, stress_rel;

@@ -89,4 +89,22 @@ std::vector<ExpectedTip> expected_tips(const ReferenceCase& c) {
   return tips;
 }
 
+std::vector<ExpectedStress> expected_stresses(const ReferenceCase& c) {
+  const json& reference = c.json.at("reference");
+  const auto list = [](const json& j) { return j.get<std::vector<double>>(); };
+  const auto r = list(reference.at("r_mm"));
+  const auto sx = list(reference.at("sx_over_sigma")), sy = list(reference.at("sy_over_sigma"));
+  std::vector<ExpectedStress> found;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    found.push_back({r[k], 0.0, Voigt(sx.at(k), sy.at(k), 0), 2});
+  }
+  const auto degrees = list(reference.at("ring_r1_theta"));
+  const json& ring = reference.at("ring");
+  const auto xx = list(ring.at(0)), yy = list(ring.at(1)), xy = list(ring.at(2));
+  for (std::size_t k = 0; k < degrees.size(); ++k) {
+    found.push_back({1.0, degrees[k], Voigt(xx.at(k), yy.at(k), xy.at(k)), 3});
+  }
+  return found;
+}
+
 }  // namespace cdca::testing

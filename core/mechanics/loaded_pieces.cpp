@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/mechanics/loaded_pieces.hpp"
+
+#include "core/mechanics/side_walk.hpp"
+
+#include <bit>
+
+namespace cdca {
+
+namespace {
+
+std::uint64_t key_of(LocalId node, int piece) {
+  return (std::uint64_t(node) << 16) | std::uint64_t(piece);
+}
+
+bool any(const LoadVector& load) { return load[0].has_value() || load[1].has_value(); }
+
+}  // namespace
+
+LoadedPieces::LoadedPieces(const BasisContext& context, const std::vector<BoundarySpec>& blocks) {
+  std::uint64_t sides = 0;
+  for (const BoundarySpec& b : blocks) {
+    if (b.kind != BoundaryKind::side || (!any(b.displacement) && !any(b.traction))) continue;
+    const std::uint64_t bit = std::uint64_t(1) << int(b.side);
+    sides |= bit;
+    mark_side(context, b.side, bit);
+  }
+  if (std::popcount(sides) > 1) return;
+  std::uint64_t bit = 16;
+  for (const BoundarySpec& b : blocks) {
+    if (b.kind != BoundaryKind::point || bit == 0) continue;
+    mark_point(context, b.at, bit);
+    bit <<= 1;
+  }
+}
+
+void LoadedPieces::mark_side(const BasisContext& c, Side side, std::uint64_t bit) {
+  const SideGeometry geometry = geometry_of(side);
+  for (const GridIndex e : elements_at(c.mesh, side)) {
+    const auto nodes = c.mesh.element_nodes(e);
+    for (const SidePortion& portion : c.cuts.side(e, geometry.element_side)) {
+      if (portion.closed) continue;
+      for (const std::size_t corner : {geometry.first_corner, geometry.last_corner}) {
+        const int piece = c.unknowns.piece(nodes[corner], (corner + 2) % 4, portion.part);
+        marks_[key_of(nodes[corner], piece)] |= bit;
+      }
+    }
+  }
+}
+
+void LoadedPieces::mark_point(const BasisContext& c, const Vec2& x, std::uint64_t bit) {
+  const Vec2 at = c.mesh.grid().to_grid(x);
+  const GridIndex e = c.mesh.grid().element_at(at);
+  if (c.mesh.find_element(e) < 0) return;
+  const auto nodes = c.mesh.element_nodes(e);
+  const int part = c.cuts.part_at(e, at);
+  for (std::size_t a = 0; a < 4; ++a) {
+    marks_[key_of(nodes[a], c.unknowns.piece(nodes[a], (a + 2) % 4, part))] |= bit;
+  }
+}
+
+std::uint64_t LoadedPieces::marks(LocalId node, int piece) const {
+  const auto it = marks_.find(key_of(node, piece));
+  return it == marks_.end() ? 0 : it->second;
+}
+
+}  // namespace cdca

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Which pieces of cells the loaded boundaries touch.
+#pragma once
+
+#include "core/cells/part_basis.hpp"
+#include "core/mechanics/boundary_spec.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace cdca {
+
+/// One bit for every side with a displacement or a traction. A body with fewer than two such sides
+/// in all counts its supports and forces at points as well.
+class LoadedPieces {
+ public:
+  LoadedPieces(const BasisContext& context, const std::vector<BoundarySpec>& blocks);
+
+  /// Bits of a piece of an own cell.
+  std::uint64_t marks(LocalId node, int piece) const;
+
+ private:
+  void mark_side(const BasisContext& context, Side side, std::uint64_t bit);
+  void mark_point(const BasisContext& context, const Vec2& at, std::uint64_t bit);
+
+  std::unordered_map<std::uint64_t, std::uint64_t> marks_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/energy_ledger.hpp"
+
+namespace cdca {
+
+void EnergyLedger::keep(const Model& model, const Equilibrium& e, double factor) {
+  const CellStiffness& cells = model.stiffness();
+  strain_energy_ = e.strain_energy;
+  potential_ = cells.dot(e.external, model.state());
+  support_potential_ = cells.dot(e.supports, model.state());
+  factor_ = factor;
+  state_ = model.state();
+  forces_ = e.external;
+  for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] += e.supports[k];
+}
+
+void EnergyLedger::new_loads(const Model& model, const Equilibrium& e) {
+  const std::size_t n = model.state().size();
+  std::vector<double> mean(n), move(n);
+  const bool first = state_.empty();
+  for (std::size_t k = 0; k < n; ++k) {
+    mean[k] = 0.5 * (e.external[k] + e.supports[k] + (first ? 0.0 : forces_[k]));
+    move[k] = model.state()[k] - (first ? 0.0 : state_[k]);
+  }
+  external_work_ += model.stiffness().dot(mean, move);
+  keep(model, e, 0.0);
+}
+
+void EnergyLedger::new_cracks(const Model& model, const Equilibrium& e) {
+  // supports have not moved, the loads have not changed
+  external_work_ += model.stiffness().dot(e.external, model.state()) - potential_;
+  keep(model, e, 0.0);
+}
+
+void EnergyLedger::new_cracks_and_factor(const Model& model, const Equilibrium& e, double factor) {
+  const double loads = model.stiffness().dot(e.external, model.state()) / factor;
+  const double supports = model.stiffness().dot(e.supports, model.state()) / factor;
+  const double loads_before = factor_ > 0 ? potential_ / factor_ : 0.0;
+  const double supports_before = factor_ > 0 ? support_potential_ / factor_ : 0.0;
+  // forces s f on displacements u; supports R on displacements s g
+  external_work_ += 0.5 * (factor_ + factor) * (loads - loads_before) +
+                    0.5 * (supports_before + supports) * (factor - factor_);
+  keep(model, e, factor);
+}
+
+}  // namespace cdca

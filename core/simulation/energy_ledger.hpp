@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where the work of the loads goes.
+#pragma once
+
+#include "core/simulation/equilibrium.hpp"
+
+namespace cdca {
+
+/// Adds up the work of loads and supports from one equilibrium to the next; what is not stored as
+/// strain energy has been spent on new cracks. J per metre of thickness.
+class EnergyLedger {
+ public:
+  /// The next equilibrium with the same cracks as the last one, under other loads: trapezoidal, and
+  /// exact since the body is linear as long as no crack grows.
+  void new_loads(const Model& model, const Equilibrium& equilibrium);
+  /// The next equilibrium under the same loads with longer cracks.
+  void new_cracks(const Model& model, const Equilibrium& equilibrium);
+  /// As new_cracks(), with loads and displacements both proportional to a factor that changed from
+  /// the last equilibrium's to this one's.
+  void new_cracks_and_factor(const Model& model, const Equilibrium& equilibrium, double factor);
+
+  double external_work() const { return external_work_; }
+  /// External work less strain energy.
+  double dissipated() const { return external_work_ - strain_energy_; }
+
+ private:
+  void keep(const Model& model, const Equilibrium& equilibrium, double factor);
+
+  double external_work_ = 0.0;
+  double strain_energy_ = 0.0;
+  double potential_ = 0.0;  ///< of the loads at the last equilibrium: forces times displacements
+  double support_potential_ = 0.0;
+  double factor_ = 0.0;
+  std::vector<double> state_;
+  std::vector<double> forces_;  ///< loads and supports together
+};
+
+}  // namespace cdca

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/load_stepper.hpp"
+
+#include "core/base/errors.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cdca {
+
+namespace {
+
+/// Tips whose index differs by less than this grow together, whatever the rank count.
+constexpr double equal_index = 1e-6;
+
+/// A difference between the copies of the registry is a bug that would spoil all that follows.
+void compare_registries(const Model& model) {
+  const std::uint64_t hash = model.registry().hash();
+  const std::array<double, 2> halves{double(hash >> 32), double(hash & 0xffffffffU)};
+  std::array<double, 2> low = halves, high = halves;
+  model.communicator().min(std::span<double>(low));
+  model.communicator().max(std::span<double>(high));
+  if (low != high) {
+    throw SolveError("the crack registries of the ranks differ; this is an error in the program.");
+  }
+}
+
+Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor,
+                  Recorder& recorder) {
+  const Stopwatch watch;
+  Equilibrium equilibrium = find_equilibrium(model, solver, factor);
+  recorder.solved(equilibrium.solver, watch.seconds());
+  return equilibrium;
+}
+
+double greatest_index(const std::vector<TipAssessment>& tips) {
+  double u = 0.0;
+  for (const TipAssessment& tip : tips) {
+    u = std::max({u, tip.judgement.u_tension, tip.judgement.u_shear});
+  }
+  return u;
+}
+
+/// Lengthens the cracks, and writes down the bodies that this has cut off.
+void advance(Model& model, const std::vector<Increment>& increments, int step, int cycle) {
+  CrackRegistry registry = model.registry();
+  apply_increments(increments, step, cycle, registry);
+  const std::size_t bodies = model.bodies().list().size();
+  model.lay_cracks(registry);
+  bool cut_off = model.bodies().list().size() > bodies;
+  for (const Body& body : model.bodies().list()) {
+    if (body.held || !cut_off) continue;
+    registry.record({step, cycle, EventKind::fragment, -1, -1, -1, body.at});
+  }
+  if (cut_off) model.replace_events(registry);
+}
+
+void note(Model& model, EventKind kind, int step, int cycle) {
+  CrackRegistry registry = model.registry();
+  registry.record({step, cycle, kind, -1, -1, -1, Vec2(0, 0)});
+  model.replace_events(registry);
+}
+
+std::vector<Increment> next_increments(Model& model, const EquilibriumSolver& solver, double factor,
+                                       const GrowthCriterion& criterion,
+                                       const std::vector<TipAssessment>& tips, double threshold) {
+  auto plans = plan_growth(model, criterion, tips, threshold);
+  correct_directions(model, solver, factor, plans);
+  return increments_of(model, plans);
+}
+
+/// An equilibrium found at factor 1, at another factor.
+void scale(Model& model, Equilibrium& equilibrium, std::vector<TipAssessment>& tips,
+           double factor) {
+  for (double& u : model.state()) u *= factor;
+  for (double& f : equilibrium.external) f *= factor;
+  for (double& f : equilibrium.supports) f *= factor;
+  for (Vec2& r : equilibrium.reactions) r *= factor;
+  equilibrium.strain_energy *= factor * factor;
+  for (TipAssessment& tip : tips) {
+    tip.intensity.k1 *= factor;
+    tip.intensity.k2 *= factor;
+    tip.judgement.u_tension *= factor;
+    tip.judgement.u_shear *= factor;
+  }
+}
+
+}  // namespace
+
+void run_prescribed(Model& model, Recorder& recorder) {
+  const CaseSpec& spec = model.spec();
+  const auto solver = make_solver(spec.solver);
+  const GrowthCriterion criterion(model);
+  const bool joined = model.joins_loaded_boundaries();
+  EnergyLedger energy;
+  for (std::size_t k = 0; k < spec.load_factors.size(); ++k) {
+    StepResult result{int(k) + 1, spec.load_factors[k], 0, k + 1 == spec.load_factors.size()};
+    compare_registries(model);
+    Equilibrium equilibrium = solve(model, *solver, result.load_factor, recorder);
+    energy.new_loads(model, equilibrium);
+    auto tips = criterion.assess(model, result.load_factor);
+    bool separated = false;
+    for (int& cycle = result.growth_cycles; criterion.grows() && !separated;) {
+      if (greatest_index(tips) < 1.0 - equal_index) break;
+      if (cycle == spec.growth.cycles) {
+        note(model, EventKind::unstable, result.step, cycle);
+        break;
+      }
+      const auto increments =
+          next_increments(model, *solver, result.load_factor, criterion, tips, 1.0 - equal_index);
+      recorder.cycle(model, result.step, cycle, tips, increments);
+      advance(model, increments, result.step, ++cycle);
+      separated = joined && !model.joins_loaded_boundaries();
+      equilibrium = solve(model, *solver, result.load_factor, recorder);
+      energy.new_cracks(model, equilibrium);
+      tips = criterion.assess(model, result.load_factor);
+    }
+    recorder.cycle(model, result.step, result.growth_cycles, tips, {});
+    if (separated) {
+      note(model, EventKind::separated, result.step, result.growth_cycles);
+      recorder.set_status("separated",
+                          "growth has cut the body apart between its loaded boundaries.");
+      result.last = true;
+    }
+    recorder.step(model, result, equilibrium, energy, tips);
+    if (separated) return;
+  }
+}
+
+void run_critical(Model& model, Recorder& recorder) {
+  const CaseSpec& spec = model.spec();
+  const auto solver = make_solver(spec.solver);
+  const GrowthCriterion criterion(model);
+  const bool joined = model.joins_loaded_boundaries();
+  EnergyLedger energy;
+  double largest = 0.0;
+  for (int event = 1;; ++event) {
+    compare_registries(model);
+    Equilibrium equilibrium = solve(model, *solver, 1.0, recorder);
+    auto tips = criterion.assess(model, 1.0);
+    const double u = greatest_index(tips);
+    const bool separated = joined && !model.joins_loaded_boundaries();
+    // everything is proportional: the first tip reaches 1 at this factor
+    const double factor = u > 0.0 && !separated ? 1.0 / u : 0.0;
+    largest = std::max(largest, factor);
+    StepResult result{event, factor, 1, false};
+    result.last = separated || u <= 0.0 || event == spec.loading.max_events ||
+                  factor < spec.loading.min_factor * largest;
+    scale(model, equilibrium, tips, factor);
+    energy.new_cracks_and_factor(model, equilibrium, std::max(factor, 1e-300));
+    if (separated) {
+      note(model, EventKind::separated, event, 0);
+      recorder.set_status("separated",
+                          "growth has cut the body apart between its loaded boundaries.");
+    } else if (u <= 0.0) {
+      recorder.set_status("completed",
+                          "no tip is opened by the loads: nothing grows at any factor.");
+    }
+    if (result.last) {
+      recorder.cycle(model, event, 0, tips, {});
+      recorder.step(model, result, equilibrium, energy, tips);
+      return;
+    }
+    const auto increments =
+        next_increments(model, *solver, factor, criterion, tips, 1.0 - equal_index);
+    recorder.cycle(model, event, 0, tips, increments);
+    recorder.step(model, result, equilibrium, energy, tips);
+    advance(model, increments, event, 1);
+    for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
+  }
+}
+
+}  // namespace cdca

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/state_transfer.hpp"
+
+#include <algorithm>
+
+namespace cdca {
+
+namespace {
+
+/// A place well inside the largest polygon of a part.
+Vec2 place_in(const CutElement& cut, int part) {
+  const ElementPolygon* largest = nullptr;
+  for (const ElementPolygon& polygon : cut.polygons) {
+    if (polygon.part == part && (!largest || polygon.area > largest->area)) largest = &polygon;
+  }
+  Vec2 best(0.5, 0.5);
+  double area = 0.0;
+  for (const auto& t : triangulate(largest->loop)) {
+    const double a = cross(t[1] - t[0], t[2] - t[0]);
+    if (a > area) {
+      area = a;
+      best = (t[0] + t[1] + t[2]) / 3;
+    }
+  }
+  return best;
+}
+
+/// The old piece where a new one has its first part.
+int old_piece_of(const BasisContext& before, const BasisContext& after, LocalId node, int piece) {
+  const CellPieces& pieces = after.unknowns.special(node)->pieces;
+  const auto elements = after.mesh.grid().elements_round(after.mesh.node(node));
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    const auto& parts = pieces.piece[slot];
+    const auto it = std::find(parts.begin(), parts.end(), piece);
+    if (it == parts.end()) continue;
+    const GridIndex e = elements[slot];
+    const CutElement* cut = after.cuts.find(e);
+    const Vec2 inside = cut ? place_in(*cut, int(it - parts.begin())) : Vec2(0.5, 0.5);
+    const int old_part = before.cuts.part_at(e, Vec2(e.i, e.j) + inside);
+    return before.unknowns.piece(node, slot, old_part);
+  }
+  return 0;
+}
+
+const TipUnknowns* same_tip(const BasisContext& before, LocalId node, const TipZone& zone) {
+  for (const TipUnknowns& tip : before.unknowns.tips(node)) {
+    const TipZone& old = before.zones[std::size_t(tip.zone)];
+    if (old.crack == zone.crack && old.end == zone.end && old.frame.tip() == zone.frame.tip()) {
+      return &tip;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void carry_state(const BasisContext& before, std::span<const double> old_state,
+                 const BasisContext& after, std::span<double> state) {
+  const auto copy = [&](LocalId from, LocalId to, LocalId count) {
+    for (LocalId k = 0; k < count; ++k)
+      state[std::size_t(to + k)] = old_state[std::size_t(from + k)];
+  };
+  for (LocalId n = 0; n < after.mesh.owned_nodes(); ++n) {
+    if (!after.unknowns.special(n)) {
+      copy(before.unknowns.of_piece(n, 0), after.unknowns.of_piece(n, 0), 2);
+      continue;
+    }
+    for (int p = 0; p < after.unknowns.pieces(n); ++p) {
+      const int old = old_piece_of(before, after, n, p);
+      copy(before.unknowns.of_piece(n, old), after.unknowns.of_piece(n, p), 2);
+    }
+    for (const TipUnknowns& tip : after.unknowns.tips(n)) {
+      const TipUnknowns* old = same_tip(before, n, after.zones[std::size_t(tip.zone)]);
+      if (old) copy(old->first, tip.first, 8);
+    }
+  }
+}
+
+}  // namespace cdca
