@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 namespace cdca {
@@ -30,8 +31,11 @@ class Pieces {
     unknowns_ = CellUnknowns(mesh_, cuts_, zones_, world());
   }
   BasisContext context() const { return {mesh_, cuts_, zones_, unknowns_}; }
+  Bodies with_marks(const std::vector<BoundarySpec>& supports, const Bodies::Marks& marks) const {
+    return {context(), Supports(context(), supports).flags(unknowns_.count()), marks, world()};
+  }
   std::vector<Body> bodies(const std::vector<BoundarySpec>& supports = {}) const {
-    return find_bodies(context(), Supports(context(), supports).flags(unknowns_.count()), world());
+    return with_marks(supports, [](LocalId, int) { return 0U; }).list();
   }
   std::int64_t count() const {
     std::int64_t own = 0;
@@ -106,6 +110,26 @@ TEST(BodiesParallel, AreTheSameListOnAllRanks) {
   world().max(std::span<double>(largest));
   world().min(std::span<double>(smallest));
   EXPECT_EQ(largest, smallest);
+}
+
+TEST(BodiesParallel, CollectTheMarksOfTheirPieces) {
+  const Pieces pieces({across, {{4.2, 8}, {4, 4.05}}});
+  // one bit for the lower rim, one each for the upper corners
+  const auto marks = [&pieces](LocalId n, int) -> std::uint64_t {
+    const GridIndex at = pieces.context().mesh.node(n);
+    return at.j == 0 ? 1 : at.j < 8 ? 0 : at.i == 0 ? 2 : at.i == 8 ? 4 : 0;
+  };
+  const Bodies bodies = pieces.with_marks({}, marks);
+  ASSERT_EQ(bodies.list().size(), 3u);
+  std::vector<std::uint64_t> found;
+  for (const Body& body : bodies.list()) found.push_back(body.marks);
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::uint64_t>{1, 2, 4}));
+  const LocalMesh& mesh = pieces.context().mesh;
+  for (LocalId n = 0; n < mesh.node_count(); ++n) {
+    if (marks(n, 0) == 0) continue;
+    EXPECT_EQ(bodies.list().at(bodies.body_of(n, 0)).marks, marks(n, 0)) << "node " << mesh.node_id(n);
+  }
 }
 
 TEST(BodiesParallel, NameAPlaceInEachOfThem) {

@@ -149,6 +149,43 @@ TEST(CrackRegistryTest, AddsUpLengths) {
   EXPECT_DOUBLE_EQ(registry.length(), 8.0);
 }
 
+TEST(CrackRegistryTest, GrowsAtEitherEnd) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
+  registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, 2, 0);
+  registry.advance(0, 0, Vec2(1, 1), TipState::active, -1, 3, 1);
+  const Crack& crack = registry.cracks()[0];
+  EXPECT_EQ(crack.points, (std::vector<Vec2>{{1, 1}, {2, 2}, {4, 3}, {5, 3}}));
+  EXPECT_EQ(crack.age, (std::vector<int>{3, 0, 2}));
+  EXPECT_EQ(registry.active_tips(), 4);
+  EXPECT_TRUE(registry.events().empty());
+}
+
+TEST(CrackRegistryTest, GrowthThatMeetsSomethingEndsTheTipWithAnEvent) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
+  registry.advance(0, 1, Vec2(6, 3), TipState::coalesced, 1, 4, 2);
+  registry.advance(0, 0, Vec2(0, 1), TipState::boundary, -1, 5, 0);
+  EXPECT_EQ(registry.active_tips(), 2);
+  ASSERT_EQ(registry.events().size(), 2u);
+  const Event& event = registry.events()[0];
+  EXPECT_EQ(event.kind, EventKind::coalescence);
+  EXPECT_EQ(event.crack, 0);
+  EXPECT_EQ(event.end, 1);
+  EXPECT_EQ(event.partner, 1);
+  EXPECT_EQ(event.step, 4);
+  EXPECT_EQ(event.cycle, 2);
+  EXPECT_EQ(event.at, Vec2(6, 3));
+  EXPECT_EQ(registry.events()[1].kind, EventKind::boundary);
+}
+
+TEST(CrackRegistryTest, EndThatWasMetIsATipNoMore) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {10, 2}}});
+  registry.join_end(1, 0, 0);
+  EXPECT_EQ(end_of(registry, 1, 0).state, TipState::connected);
+  EXPECT_EQ(end_of(registry, 1, 0).partner, 0);
+  registry.join_end(1, 1, 0);
+  EXPECT_EQ(end_of(registry, 1, 1).state, TipState::boundary) << "had ended before";
+}
+
 TEST(CrackTest, IsSeenFromBothEnds) {
   Crack crack;
   crack.points = {{0, 0}, {2, 0}, {2, 3}};
@@ -183,6 +220,17 @@ TEST(CrackRegistryTest, HashChangesWithAnyChange) {
   std::set<std::uint64_t> hashes;
   for (const auto& cracks : variants) hashes.insert(resolved(cracks).hash());
   EXPECT_EQ(hashes.size(), variants.size());
+}
+
+TEST(CrackRegistryTest, HashSeesGrowthAndWhenItHappened) {
+  std::set<std::uint64_t> hashes;
+  for (const int step : {1, 2}) {
+    CrackRegistry registry = resolved({{{2, 2}, {4, 3}}});
+    hashes.insert(registry.hash());
+    registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, step, 0);
+    hashes.insert(registry.hash());
+  }
+  EXPECT_EQ(hashes.size(), 3u);
 }
 
 TEST(CrackRegistryTest, HashSeesWhatBecameOfTheEnds) {

@@ -21,16 +21,36 @@ void PlaneRim::hold(CaseSpec& spec) const {
 
 void PlaneRim::take_jumps(const Model& model) {
   const CrackPart faces = draw_cracks(model);
-  jumps_.clear();
+  std::vector<Jump> jumps;
   for (std::size_t k = 0; k < faces.crack.size(); ++k) {
     const Vec2 from(faces.points[4 * k], faces.points[4 * k + 1]);
     const Vec2 to(faces.points[4 * k + 2], faces.points[4 * k + 3]);
     const Vec2 along = (to - from).normalized(), normal = turned_left(along);
     const double opening = 0.5 * (faces.opening[2 * k] + faces.opening[2 * k + 1]);
     const double slip = 0.5 * (faces.slip[2 * k] + faces.slip[2 * k + 1]);
-    jumps_.push_back(
+    jumps.push_back(
         {0.5 * (from + to), (to - from).norm() * normal, opening * normal + slip * along});
   }
+  relax(std::move(jumps));
+}
+
+void PlaneRim::relax(std::vector<Jump> solved) {
+  if (jumps_.empty()) {  // the first rim was that of a plane without cracks
+    jumps_ = solved;
+    for (Jump& j : jumps_) j.jump.setZero();
+  }
+  std::vector<Vec2> change(solved.size());
+  double along = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < solved.size(); ++k) {
+    change[k] = solved[k].jump - jumps_[k].jump;
+    if (change_.empty()) continue;
+    const Vec2 difference = change[k] - change_[k];
+    along += change_[k].dot(difference);
+    square += difference.squaredNorm();
+  }
+  if (square > 0.0) relaxation_ *= -along / square;
+  for (std::size_t k = 0; k < solved.size(); ++k) jumps_[k].jump += relaxation_ * change[k];
+  change_ = std::move(change);
 }
 
 Vec2 PlaneRim::displacement(const Vec2& x) const {

@@ -15,7 +15,8 @@ namespace cdca::testing {
 ///
 /// S_ijk(xi - x) the stress at xi of a unit force at x in direction k (Kelvin), n from the minus to
 /// the plus face. The jumps are those of the model itself: solve, take them, and solve again, until
-/// nothing changes. What is then found holds for the infinite plane, however small the rectangle.
+/// nothing changes (Aitken's relaxation saves half of the solves). What is then found holds for the
+/// infinite plane, however small the rectangle.
 class PlaneRim {
  public:
   PlaneRim(const Material& material, const Voigt& far_stress);
@@ -24,7 +25,7 @@ class PlaneRim {
 
   /// Holds the rim of the case at these displacements. Borrows this object.
   void hold(CaseSpec& spec) const;
-  /// Takes the jumps over the crack faces of a solved model.
+  /// Goes on from the jumps over the crack faces of the model, solved with this rim.
   void take_jumps(const Model& model);
   Vec2 displacement(const Vec2& x) const;
 
@@ -38,9 +39,13 @@ class PlaneRim {
   void set_jumps(std::vector<Jump> jumps) { jumps_ = std::move(jumps); }
 
  private:
+  void relax(std::vector<Jump> solved);
+
   double poisson_;  ///< of plane strain; in plane stress the one that gives the same plane field
   Eigen::Matrix2d far_strain_;
   std::vector<Jump> jumps_;
+  std::vector<Vec2> change_;  ///< of the last jumps
+  double relaxation_ = 1.0;
 };
 
 }  // namespace cdca::testing

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/verification/reference_solve.hpp"
 
+#include "core/cells/gauss.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -122,6 +124,29 @@ SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad&
   s.tips = tips_of(*s.model);
   if (g.infinite) settle_rim(s, *solver);
   return s;
+}
+
+Voigt mean_stress(const Model& model, const Vec2& x) {
+  // the rectangle covers parts of two columns and two rows: integrate each of the four on its own
+  const Vec2 low = model.grid().to_grid(x).array() - 0.5;
+  Voigt sum = Voigt::Zero();
+  for (const GaussPoint& p : gauss_points(3)) {
+    for (const GaussPoint& q : gauss_points(3)) {
+      for (const bool right : {false, true}) {
+        for (const bool upper : {false, true}) {
+          const Vec2 border(std::ceil(low.x()), std::ceil(low.y()));
+          const Vec2 from(right ? border.x() : low.x(), upper ? border.y() : low.y());
+          const Vec2 to(right ? low.x() + 1 : border.x(), upper ? low.y() + 1 : border.y());
+          const Vec2 at = from + Vec2(p.x, q.x).cwiseProduct(to - from);
+          const double weight = p.weight * q.weight * (to - from).prod();
+          if (weight < 1e-9) continue;
+          sum += weight *
+                 model.material().stress(model.field_at(model.grid().from_grid(at)).gradient);
+        }
+      }
+    }
+  }
+  return sum;
 }
 
 const StressIntensity& tip_at(const SolvedReference& solved, const Vec2& at) {

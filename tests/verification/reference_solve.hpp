@@ -42,6 +42,11 @@ SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad&
 
 std::vector<StressIntensity> tips_of(const Model& model);
 
+/// The mean stress of a rectangle of one element's size with its middle at x, off all cracks. The
+/// stress itself jumps from element to element and is good to first order only; this is good to
+/// second order wherever the place lies in the grid.
+Voigt mean_stress(const Model& model, const Vec2& x);
+
 /// The K of the tip at a place. Throws when there is none within a thousandth of an element.
 const StressIntensity& tip_at(const SolvedReference& solved, const Vec2& at);
 
