@@ -2,6 +2,7 @@
 #include "drivers/check_command.hpp"
 #include "drivers/command_line.hpp"
 #include "drivers/failure.hpp"
+#include "drivers/launcher.hpp"
 #include "drivers/pictures.hpp"
 #include "drivers/run_command.hpp"
 #include "io/case_manual.hpp"
@@ -48,12 +49,14 @@ Outcome obey(const CommandLine& line, cdca::Communicator& ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const CommandLine line = cdca::parse_command_line({argv, argv + argc});
   Outcome outcome;
-  CommandLine line;
-  {
+  if (cdca::started_by_launcher()) {
     const cdca::MpiEnvironment environment(argc, argv);
     cdca::MpiCommunicator ranks;
-    line = cdca::parse_command_line({argv, argv + argc});
+    outcome = obey(line, ranks);
+  } else {
+    cdca::SerialCommunicator ranks;
     outcome = obey(line, ranks);
   }
   if (outcome.draws_pictures) cdca::draw_pictures(line.directory, line.quiet);

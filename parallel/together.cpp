@@ -2,8 +2,8 @@
 #include "parallel/together.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/base/first_failure.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <string>
 
@@ -17,17 +17,8 @@ void together(Communicator& comm, const std::function<void()>& work) {
     message = error.what();
     if (message.empty()) message = "A file could not be written.";
   }
-  if (comm.max(message.empty() ? 0.0 : 1.0) == 0.0) return;
-
-  Bytes mine;
-  pack(mine, std::span<const char>(message));
-  const auto messages = comm.gather(mine);
-  const auto first = std::find_if(messages.begin(), messages.end(),
-                                  [](const Bytes& bytes) { return !bytes.empty(); });
-  Bytes shown = first == messages.end() ? Bytes{} : *first;
-  comm.broadcast(shown);
-  const auto letters = unpack<char>(shown);
-  throw IoError(std::string(letters.begin(), letters.end()));
+  const std::string first = first_failure(comm, message);
+  if (!first.empty()) throw IoError(first);
 }
 
 }  // namespace cdca

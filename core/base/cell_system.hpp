@@ -33,6 +33,12 @@ class CellSystem {
   virtual void sweep(SweepDirection direction, double omega, std::span<double> forces,
                      std::span<double> displacements) const = 0;
 
+  /// One sweep of the rule over the cells of all ranks. Cells that share an element with a cell of
+  /// another rank are moved while that rank's stand still, so that the rule is one cell after the
+  /// other on any number of ranks. Forces on ghosts are handed over on the way. Collective.
+  virtual void sweep_all(double omega, std::span<double> forces,
+                         std::span<double> displacements) const = 0;
+
   /// Hands the force increments on ghosts to their owners. Collective.
   virtual void return_forces(std::span<double> forces) const = 0;
 

@@ -60,6 +60,21 @@ void add_hold(const BasisContext& c, LocalId node, int component, LocalBody& bod
   for (std::size_t k = 0; k < 6; ++k) body.rigid[k] += upper[k];
 }
 
+/// A place inside a piece, m.
+Vec2 place_of(const BasisContext& c, LocalId node, int piece) {
+  const auto elements = c.mesh.grid().elements_round(c.mesh.node(node));
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    const GridIndex e = elements[slot];
+    if (!c.mesh.grid().has_element(e)) continue;
+    for (int part = 0; part < c.cuts.parts(e); ++part) {
+      if (c.unknowns.piece(node, slot, part) != piece) continue;
+      const CutElement* cut = c.cuts.find(e);
+      return c.mesh.grid().from_grid(Vec2(e.i, e.j) + (cut ? cut->place_in(part) : Vec2(0.5, 0.5)));
+    }
+  }
+  return c.mesh.grid().node_position(c.mesh.node(node));
+}
+
 /// The pieces of this rank as one vertex each.
 class PieceGraph {
  public:
@@ -154,7 +169,7 @@ Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks
     for (int p = 0; p < c.unknowns.pieces(n); ++p) {
       LocalBody& body = mine[label.at(graph.set_of(n, p))];
       if (body.pieces++ == 0) {
-        const Vec2 x = c.mesh.grid().node_position(c.mesh.node(n));
+        const Vec2 x = place_of(c, n, p);
         body.x = x.x();
         body.y = x.y();
       }

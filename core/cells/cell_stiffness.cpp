@@ -74,6 +74,7 @@ CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& e
   if (!loose.empty()) add_springs(loose);
   build_groups(context, held, regular);
   order_items();
+  colour_ranks(mesh);
   for (LocalId u = 0; u < owned_; ++u) {
     if (held[std::size_t(u)]) held_.push_back(u);
   }
@@ -177,10 +178,10 @@ void CellStiffness::build_groups(const BasisContext& context, const std::vector<
 
 void CellStiffness::order_items() {
   for (std::size_t r = 0; r < regular_.runs().size(); ++r) {
-    items_.push_back({regular_.runs()[r].node, true, r});
+    items_.push_back({regular_.runs()[r].node, true, r, false});
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    items_.push_back({groups_[g].first_node(), false, g});
+    items_.push_back({groups_[g].first_node(), false, g, at_border(groups_[g])});
   }
   std::sort(items_.begin(), items_.end(),
             [](const Item& a, const Item& b) { return a.node < b.node; });
@@ -216,16 +217,64 @@ void CellStiffness::move_group(const CellGroup& group, double omega, std::span<d
   }
 }
 
+bool CellStiffness::at_border(const CellGroup& group) const {
+  for (const std::size_t row : group.rows()) {
+    for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k) {
+      if (rows_.column[k] >= owned_) return true;
+    }
+  }
+  return false;
+}
+
+void CellStiffness::colour_ranks(const LocalMesh& mesh) {
+  struct Border {
+    int rank;
+    int neighbour;
+  };
+  std::vector<Border> mine;
+  for (const SharedNodes& shared : mesh.shared()) mine.push_back({communicator_.rank(), shared.rank});
+  const auto borders = communicator_.agree(mine, [](const Border& a, const Border& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.neighbour < b.neighbour;
+  });
+  std::vector<int> colour(std::size_t(communicator_.size()), 0);
+  for (int rank = 0; rank < communicator_.size(); ++rank) {
+    std::vector<char> taken(colour.size() + 1, 0);
+    for (const Border& b : borders) {
+      if (b.rank == rank && b.neighbour < rank) taken[std::size_t(colour[std::size_t(b.neighbour)])] = 1;
+    }
+    int& own = colour[std::size_t(rank)];
+    while (taken[std::size_t(own)]) ++own;
+    colours_ = std::max(colours_, own + 1);
+  }
+  colour_ = colour[std::size_t(communicator_.rank())];
+}
+
+void CellStiffness::move_item(const Item& item, bool forward, double omega,
+                              std::span<double> forces, std::span<double> displacements) const {
+  if (item.run) {
+    regular_.sweep(regular_.runs()[item.index], forward, omega, forces, displacements);
+  } else {
+    move_group(groups_[item.index], omega, forces, displacements);
+  }
+}
+
 void CellStiffness::sweep(SweepDirection direction, double omega, std::span<double> forces,
                           std::span<double> displacements) const {
   const bool forward = direction == SweepDirection::forward;
   for (std::size_t k = 0; k < items_.size(); ++k) {
-    const Item& item = items_[forward ? k : items_.size() - 1 - k];
-    if (item.run) {
-      regular_.sweep(regular_.runs()[item.index], forward, omega, forces, displacements);
-    } else {
-      move_group(groups_[item.index], omega, forces, displacements);
+    move_item(items_[forward ? k : items_.size() - 1 - k], forward, omega, forces, displacements);
+  }
+}
+
+void CellStiffness::sweep_all(double omega, std::span<double> forces,
+                              std::span<double> displacements) const {
+  for (int colour = 0; colour < colours_; ++colour) {
+    for (const Item& item : items_) {
+      // cells inside a rank are not coupled to those of others: the last colour's turn is theirs
+      const bool now = item.at_border ? colour == colour_ : colour + 1 == colours_;
+      if (now) move_item(item, true, omega, forces, displacements);
     }
+    halo_.add_forces(forces);
   }
 }
 

@@ -44,6 +44,8 @@ class CellStiffness final : public CellSystem {
   void apply(std::span<const double> displacements, std::span<double> forces) const override;
   void sweep(SweepDirection direction, double omega, std::span<double> forces,
              std::span<double> displacements) const override;
+  void sweep_all(double omega, std::span<double> forces,
+                 std::span<double> displacements) const override;
   void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
   void clear_held(std::span<double> values) const override;
 
@@ -57,6 +59,7 @@ class CellStiffness final : public CellSystem {
     LocalId node;
     bool run;
     std::size_t index;
+    bool at_border;  ///< coupled to ghosts
   };
 
   void build_rows(const BasisContext& context, const ElasticMatrix& elastic,
@@ -65,6 +68,10 @@ class CellStiffness final : public CellSystem {
   void build_groups(const BasisContext& context, const std::vector<char>& held,
                     const std::vector<char>& regular);
   void order_items();
+  void colour_ranks(const LocalMesh& mesh);
+  bool at_border(const CellGroup& group) const;
+  void move_item(const Item& item, bool forward, double omega, std::span<double> forces,
+                 std::span<double> displacements) const;
   void move_group(const CellGroup& group, double omega, std::span<double> forces,
                   std::span<double> displacements) const;
 
@@ -77,6 +84,8 @@ class CellStiffness final : public CellSystem {
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;
+  int colour_ = 0;   ///< ranks of one colour share no element
+  int colours_ = 1;
 };
 
 }  // namespace cdca

@@ -2,6 +2,7 @@
 #include "core/cells/cut_element.hpp"
 
 #include "core/cells/planar_subdivision.hpp"
+#include "core/cells/quadrature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +111,7 @@ void add_sides(CutElement& cut, const PlanarSubdivision& plane, const std::vecto
       }
     }
     if (absorbed.step[polygon] >= 0) {
-      portion.closed = true;
+      portion.closed = portion.sliver = true;
       portion.step = absorbed.step[polygon];
     }
     cut.sides[side].push_back(portion);
@@ -141,6 +142,23 @@ int CutElement::part_at(const Vec2& p) const {
     if (contains(polygon.loop, p)) return polygon.part;
   }
   return polygons.empty() ? 0 : polygons.front().part;
+}
+
+Vec2 CutElement::place_in(int part) const {
+  const ElementPolygon* largest = nullptr;
+  for (const ElementPolygon& polygon : polygons) {
+    if (polygon.part == part && (!largest || polygon.area > largest->area)) largest = &polygon;
+  }
+  Vec2 best(0.5, 0.5);
+  double area = 0.0;
+  for (const auto& t : triangulate(largest->loop)) {
+    const double a = cross(t[1] - t[0], t[2] - t[0]);
+    if (a > area) {
+      area = a;
+      best = (t[0] + t[1] + t[2]) / 3;
+    }
+  }
+  return best;
 }
 
 CutElement cut_element(const CrackPaths& paths, GridIndex element) {
@@ -189,13 +207,14 @@ std::vector<SideContact> contacts(const std::vector<SidePortion>& first,
       const double t0 = std::max(a.t0, b.t0), t1 = std::min(a.t1, b.t1);
       if (t1 - t0 < shortest) continue;
       found.push_back({t0, t1, a.part, b.part, !a.closed && !b.closed,
-                       a.step >= 0 ? a.step : b.step, a.step < 0});
+                       a.step >= 0 ? a.step : b.step, a.step < 0, a.sliver && b.sliver});
     }
   }
-  // a stretch that slivers closed from both sides is no crack where the same parts meet openly
+  // where slivers on both sides have joined parts that meet openly elsewhere, there is no crack
   for (SideContact& c : found) {
     for (const SideContact& other : found) {
-      if (other.open && other.first == c.first && other.second == c.second) c.open = true;
+      const bool same = other.first == c.first && other.second == c.second;
+      if (c.between_slivers && other.open && !other.between_slivers && same) c.open = true;
     }
   }
   return found;

@@ -18,6 +18,7 @@ struct SidePortion {
   int part = 0;
   bool closed = false;  ///< a crack lies between this stretch and the neighbour element
   int step = -1;        ///< of those in the element: the one that closes it
+  bool sliver = false;  ///< closed because a sliver here has joined the part across the crack
 };
 
 /// A straight bit of crack between two parts of one element; the same part on both sides near a
@@ -48,6 +49,8 @@ struct CutElement {
 
   /// The part that holds a point inside the element.
   int part_at(const Vec2& p) const;
+  /// A place well inside the largest polygon of a part.
+  Vec2 place_in(int part) const;
 };
 
 /// Polygons smaller than this, in element areas, join the part across the crack that has the
@@ -70,6 +73,7 @@ struct SideContact {
   bool open = true;
   int step = -1;  ///< of those in one of the elements: the one that closes it, if known
   bool step_of_second = false;
+  bool between_slivers = false;
 };
 
 /// Lays the portions of a common side over each other.

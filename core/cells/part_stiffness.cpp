@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/part_stiffness.hpp"
 
+#include <algorithm>
+
 #include "core/cells/quadrature.hpp"
 #include "core/mesh/shape_functions.hpp"
 
@@ -15,30 +17,68 @@ void set_strain_columns(Eigen::Ref<Eigen::Matrix<double, 3, 2>> b, const Vec2& g
 
 }  // namespace
 
+namespace {
+
+/// Integrals of products of derivatives of all functions: xx, xy, yy.
+struct GradientProducts {
+  Eigen::MatrixXd xx, xy, yy;
+};
+
+GradientProducts gradient_products(const PartBasis& basis, Eigen::Index count, const Vec2& h,
+                                   const std::vector<QuadraturePoint>& points) {
+  constexpr std::size_t batch = 256;  // large enough for fast products, small enough for the cache
+  GradientProducts sum{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count),
+                       Eigen::MatrixXd::Zero(count, count)};
+  Eigen::MatrixXd gx(count, batch), gy(count, batch), wx(count, batch), wy(count, batch);
+  std::vector<BasisFunction> functions;
+  for (std::size_t start = 0; start < points.size(); start += batch) {
+    const auto size = Eigen::Index(std::min(batch, points.size() - start));
+    for (Eigen::Index q = 0; q < size; ++q) {
+      const QuadraturePoint& point = points[start + std::size_t(q)];
+      basis.evaluate(point.at, functions);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const Vec2& g = functions[std::size_t(k)].gradient;
+        gx(k, q) = g.x();
+        gy(k, q) = g.y();
+      }
+      wx.col(q) = point.weight * h.prod() * gx.col(q);
+      wy.col(q) = point.weight * h.prod() * gy.col(q);
+    }
+    sum.xx.noalias() += wx.leftCols(size) * gx.leftCols(size).transpose();
+    sum.xy.noalias() += wx.leftCols(size) * gy.leftCols(size).transpose();
+    sum.yy.noalias() += wy.leftCols(size) * gy.leftCols(size).transpose();
+  }
+  return sum;
+}
+
+}  // namespace
+
 PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int part,
-                             const ElasticMatrix& elastic) {
+                             const ElasticMatrix& d) {
   const PartBasis basis(context, element, part);
   const CutElement* cut = context.cuts.find(element);
   const Vec2& h = context.mesh.grid().element_size();
   PartStiffness stiffness;
-  for (const LocalId first : basis.unknowns()) {
-    stiffness.unknowns.push_back(first);
-    stiffness.unknowns.push_back(first + 1);
+  const auto first = basis.unknowns();
+  for (const LocalId u : first) {
+    stiffness.unknowns.push_back(u);
+    stiffness.unknowns.push_back(u + 1);
   }
-  const auto size = Eigen::Index(stiffness.unknowns.size());
-  stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
-  Eigen::Matrix<double, 3, Eigen::Dynamic> b(3, size);
-  Eigen::Matrix<double, 3, Eigen::Dynamic> stress(3, size);
-  std::vector<BasisFunction> functions;
-  const auto points = basis.has_tip_functions() ? tip_quadrature(cut, part, basis.tip_places(), h)
-                                                : plain_quadrature(cut, part);
-  for (const QuadraturePoint& q : points) {
-    basis.evaluate(q.at, functions);
-    for (std::size_t k = 0; k < functions.size(); ++k) {
-      set_strain_columns(b.middleCols<2>(2 * Eigen::Index(k)), functions[k].gradient);
+  const auto points = basis.has_tip_functions()
+                          ? tip_quadrature(cut, part, basis.tip_places(), h)
+                          : plain_quadrature(cut, part);
+  const auto count = Eigen::Index(first.size());
+  const GradientProducts p = gradient_products(basis, count, h, points);
+  // B^T D B for B = (N,x 0; 0 N,y; N,y N,x), block by block
+  stiffness.matrix.resize(2 * count, 2 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const double xx = p.xx(i, j), xy = p.xy(i, j), yx = p.xy(j, i), yy = p.yy(i, j);
+      stiffness.matrix(2 * i, 2 * j) = d(0, 0) * xx + d(2, 2) * yy;
+      stiffness.matrix(2 * i, 2 * j + 1) = d(0, 1) * xy + d(2, 2) * yx;
+      stiffness.matrix(2 * i + 1, 2 * j) = d(0, 1) * yx + d(2, 2) * xy;
+      stiffness.matrix(2 * i + 1, 2 * j + 1) = d(1, 1) * yy + d(2, 2) * xx;
     }
-    stress.noalias() = q.weight * h.prod() * elastic * b;
-    stiffness.matrix.noalias() += b.transpose() * stress;
   }
   return stiffness;
 }

@@ -102,16 +102,30 @@ double farthest(const Triangle& t, const Vec2& p) {
 /// Size to which triangles are halved across a kink of the functions, in element sizes.
 constexpr double across_bends = 1.0 / 16;
 
+std::pair<std::size_t, const SingularPlace*> tip_at_corner(const Triangle& t,
+                                                           const std::vector<SingularPlace>& tips) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const SingularPlace& tip : tips) {
+      if ((t[k] - tip.at).norm() < same_place) return {k, &tip};
+    }
+  }
+  return {0, nullptr};
+}
+
+/// Is another tip too near for points that look at this one only?
+bool others_near(const Triangle& t, const SingularPlace* tip, const std::vector<SingularPlace>& tips) {
+  for (const SingularPlace& other : tips) {
+    if (&other != tip && distance(t, other.at) < longest_side(t)) return true;
+  }
+  return false;
+}
+
 void add_graded(const Triangle& t, const std::vector<SingularPlace>& tips, int depth,
                 std::vector<QuadraturePoint>& points) {
   if (twice_area(t) <= 1e-16) return;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const SingularPlace& tip : tips) {
-      if ((t[k] - tip.at).norm() < same_place) {
-        add_collapsed({t[k], t[(k + 1) % 3], t[(k + 2) % 3]}, tip, points);
-        return;
-      }
-    }
+  if (const auto [corner, tip] = tip_at_corner(t, tips); tip && (depth == 0 || !others_near(t, tip, tips))) {
+    add_collapsed({t[corner], t[(corner + 1) % 3], t[(corner + 2) % 3]}, *tip, points);
+    return;
   }
   const double size = longest_side(t);
   double gap = 1e300;

@@ -64,7 +64,7 @@ void CrackRegistry::resolve_initial_meetings(const Rectangle& body, double toler
           end_on_face(c, end, tolerance);
     }
   }
-  find_crossings();
+  find_crossings(tolerance);
 }
 
 bool CrackRegistry::end_on_rim(std::size_t c, int end, const Rectangle& body, double tolerance) {
@@ -108,16 +108,39 @@ bool CrackRegistry::end_on_face(std::size_t c, int end, double tolerance) {
   return false;
 }
 
-void CrackRegistry::find_crossings() {
+namespace {
+
+/// Do a-b and c-d cross? Points on a line count as left of it, so that a path that crosses at its
+/// kink does so once, and one that only touches there twice or never.
+bool sides_change(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto left = [](const Vec2& from, const Vec2& to, const Vec2& x) {
+    return cross(to - from, x - from) >= 0.0;
+  };
+  return left(c, d, a) != left(c, d, b) && left(a, b, c) != left(a, b, d);
+}
+
+Vec2 crossing_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  return a + cross(c - a, d - c) / cross(b - a, d - c) * (b - a);
+}
+
+bool ends_at(const Crack& crack, const Vec2& x, double tolerance) {
+  return (crack.points.front() - x).norm() <= tolerance ||
+         (crack.points.back() - x).norm() <= tolerance;
+}
+
+}  // namespace
+
+void CrackRegistry::find_crossings(double tolerance) {
   for (std::size_t a = 0; a < cracks_.size(); ++a) {
     for (std::size_t b = a + 1; b < cracks_.size(); ++b) {
       const auto &p = cracks_[a].points, &q = cracks_[b].points;
       for (std::size_t k = 0; k + 1 < p.size(); ++k) {
         for (std::size_t l = 0; l + 1 < q.size(); ++l) {
           if (boxes_apart(p[k], p[k + 1], q[l], q[l + 1], 0.0)) continue;
-          const auto hit = crossing_of(p[k], p[k + 1], q[l], q[l + 1]);
-          if (!hit) continue;
-          const Vec2 at = p[k] + hit->on_first * (p[k + 1] - p[k]);
+          if (!sides_change(p[k], p[k + 1], q[l], q[l + 1])) continue;
+          const Vec2 at = crossing_point(p[k], p[k + 1], q[l], q[l + 1]);
+          // an end that touches a face does not cross it
+          if (ends_at(cracks_[a], at, tolerance) || ends_at(cracks_[b], at, tolerance)) continue;
           events_.push_back({0, 0, EventKind::crossing, int(a), -1, int(b), at});
         }
       }

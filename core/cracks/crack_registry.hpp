@@ -69,7 +69,7 @@ class CrackRegistry {
   bool end_on_rim(std::size_t crack, int end, const Rectangle& body, double tolerance);
   bool end_on_end(std::size_t crack, int end, double tolerance);
   bool end_on_face(std::size_t crack, int end, double tolerance);
-  void find_crossings();
+  void find_crossings(double tolerance);
 
   std::vector<Crack> cracks_;
   std::vector<Event> events_;

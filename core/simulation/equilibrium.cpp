@@ -2,6 +2,7 @@
 #include "core/simulation/equilibrium.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/base/first_failure.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -31,8 +32,11 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   const auto all = std::size_t(cells.count());
   const auto own = std::size_t(cells.owned());
   std::vector<double> external(all, 0.0), held(all, 0.0), product(all, 0.0), forces(all, 0.0);
-  add_external_forces(model.basis(), model.loads(load_factor), external);
-  model.supports().prescribe(model.spec().boundaries, load_factor, held);
+  fail_together(cells.communicator(), [&] {
+    // an expression may have no value at some place of one rank
+    add_external_forces(model.basis(), model.loads(load_factor), external);
+    model.supports().prescribe(model.spec().boundaries, load_factor, held);
+  });
   cells.apply(held, product);
   for (std::size_t k = 0; k < own; ++k) forces[k] = external[k] - product[k];
   cells.clear_held(forces);

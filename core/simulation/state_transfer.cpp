@@ -7,24 +7,6 @@ namespace cdca {
 
 namespace {
 
-/// A place well inside the largest polygon of a part.
-Vec2 place_in(const CutElement& cut, int part) {
-  const ElementPolygon* largest = nullptr;
-  for (const ElementPolygon& polygon : cut.polygons) {
-    if (polygon.part == part && (!largest || polygon.area > largest->area)) largest = &polygon;
-  }
-  Vec2 best(0.5, 0.5);
-  double area = 0.0;
-  for (const auto& t : triangulate(largest->loop)) {
-    const double a = cross(t[1] - t[0], t[2] - t[0]);
-    if (a > area) {
-      area = a;
-      best = (t[0] + t[1] + t[2]) / 3;
-    }
-  }
-  return best;
-}
-
 /// The old piece where a new one has its first part.
 int old_piece_of(const BasisContext& before, const BasisContext& after, LocalId node, int piece) {
   const CellPieces& pieces = after.unknowns.special(node)->pieces;
@@ -35,7 +17,7 @@ int old_piece_of(const BasisContext& before, const BasisContext& after, LocalId 
     if (it == parts.end()) continue;
     const GridIndex e = elements[slot];
     const CutElement* cut = after.cuts.find(e);
-    const Vec2 inside = cut ? place_in(*cut, int(it - parts.begin())) : Vec2(0.5, 0.5);
+    const Vec2 inside = cut ? cut->place_in(int(it - parts.begin())) : Vec2(0.5, 0.5);
     const int old_part = before.cuts.part_at(e, Vec2(e.i, e.j) + inside);
     return before.unknowns.piece(node, slot, old_part);
   }

@@ -26,8 +26,7 @@ class Relaxation final : public EquilibriumSolver {
       report.residual = std::sqrt(system.dot(residual, residual)) / scale;
       report.converged = report.residual <= options_.tolerance;
       if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
-      system.sweep(SweepDirection::forward, options_.over_relaxation, residual, u);
-      system.return_forces(residual);
+      system.sweep_all(options_.over_relaxation, residual, u);
       system.clear_held(residual);
     }
     return report;

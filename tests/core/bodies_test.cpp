@@ -128,7 +128,8 @@ TEST(BodiesParallel, CollectTheMarksOfTheirPieces) {
   const LocalMesh& mesh = pieces.context().mesh;
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
     if (marks(n, 0) == 0) continue;
-    EXPECT_EQ(bodies.list().at(bodies.body_of(n, 0)).marks, marks(n, 0)) << "node " << mesh.node_id(n);
+    EXPECT_EQ(bodies.list().at(bodies.body_of(n, 0)).marks, marks(n, 0))
+        << "node " << mesh.node_id(n);
   }
 }
 
@@ -202,7 +203,8 @@ TEST(BodiesParallel, ModelRefusesALoosePart) {
 }
 
 TEST(BodiesParallel, ModelRefusesAnIsland) {
-  const Polylines ring{{{2.3, 2.4}, {5.6, 2.7}}, {{5.6, 2.7}, {4.1, 5.6}}, {{4.1, 5.6}, {2.3, 2.4}}};
+  const Polylines ring{
+      {{2.3, 2.4}, {5.6, 2.7}}, {{5.6, 2.7}, {4.1, 5.6}}, {{4.1, 5.6}, {2.3, 2.4}}};
   EXPECT_EQ(refused(plate(ring, {side(Side::bottom, true, true)})).size(), 1u);
 }
 

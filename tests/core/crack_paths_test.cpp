@@ -17,7 +17,8 @@ const StructuredGrid grid(Vec2(0, 0), Vec2(8, 6), 8, 6);  // grid coordinates ar
 CrackPaths paths_of(const std::vector<std::vector<Vec2>>& cracks, const StructuredGrid& on = grid) {
   CrackRegistry registry;
   for (const auto& points : cracks) registry.add("", points);
-  registry.resolve_initial_meetings({on.origin(), on.origin() + on.size()}, 1e-3 * on.smallest_side());
+  registry.resolve_initial_meetings({on.origin(), on.origin() + on.size()},
+                                    1e-3 * on.smallest_side());
   return {on, registry.cracks()};
 }
 
@@ -94,7 +95,8 @@ TEST(CrackPathsTest, RandomCracksKeepTheirLengthAndStayInTheElements) {
     expect_one_line(paths.steps());
     EXPECT_EQ(listings(paths, flat), std::vector<int>(paths.steps().size(), 1));
     double sum = 0.0;
-    for (const PathStep& s : paths.steps()) sum += (flat.from_grid(s.to) - flat.from_grid(s.from)).norm();
+    for (const PathStep& s : paths.steps())
+      sum += (flat.from_grid(s.to) - flat.from_grid(s.from)).norm();
     EXPECT_NEAR(sum, crack.length(), 1e-6 * crack.length());
   }
 }
@@ -121,7 +123,8 @@ TEST(CrackPathsTest, PathsMissANodeClearlyOrMeetIt) {
   for (int k = -60; k <= 60; ++k) {
     const Vec2 off(0, 0.05 * k * CrackPaths::snap);
     for (const double slope : {0.2, 1.0, -3.0, 1e-3}) {
-      const CrackPaths paths = paths_of({{Vec2(2.5, 3 - 0.5 * slope) + off, Vec2(3.5, 3 + 0.5 * slope) + off}});
+      const CrackPaths paths =
+          paths_of({{Vec2(2.5, 3 - 0.5 * slope) + off, Vec2(3.5, 3 + 0.5 * slope) + off}});
       expect_one_line(paths.steps());
       for (const PathStep& s : paths.steps())
         for (const Vec2& p : {s.from, s.to})
@@ -183,7 +186,8 @@ TEST(CrackPathsTest, TouchingEndSplitsItsPartner) {
 }
 
 TEST(CrackPathsTest, ConnectedEndsArePlacedTogether) {
-  const CrackPaths paths = paths_of({{{1.1, 1.3}, {3.3, 2.7}}, {{6.1, 4.2}, {3.3, 2.7}}, {{3.3, 2.7}, {3.4, 5.2}}});
+  const CrackPaths paths =
+      paths_of({{{1.1, 1.3}, {3.3, 2.7}}, {{6.1, 4.2}, {3.3, 2.7}}, {{3.3, 2.7}, {3.4, 5.2}}});
   EXPECT_EQ(steps_of(paths, 0).back().to, steps_of(paths, 1).back().to);
   EXPECT_EQ(steps_of(paths, 0).back().to, steps_of(paths, 2).front().from);
 }

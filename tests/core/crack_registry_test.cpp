@@ -60,8 +60,8 @@ TEST(CrackRegistryTest, EndsNearTheRimMoveOntoIt) {
 
 TEST(CrackRegistryTest, EndsFartherThanTheToleranceTouchNothing) {
   const double away = 1.01 * tolerance;
-  const CrackRegistry registry = resolved({{{2, 4}, {6, 4}}, {{4, 4 + away}, {4, 6}}, {{6 + away, 4}, {8, 4}},
-                                           {{away, 1}, {3, 1}}});
+  const CrackRegistry registry = resolved(
+      {{{2, 4}, {6, 4}}, {{4, 4 + away}, {4, 6}}, {{6 + away, 4}, {8, 4}}, {{away, 1}, {3, 1}}});
   EXPECT_EQ(registry.active_tips(), 8);
   EXPECT_TRUE(registry.events().empty());
 }
@@ -110,7 +110,8 @@ TEST(CrackRegistryTest, MovingAnEndOntoAFaceIsNoCrossing) {
   for (int k = 0; k < 500; ++k) {
     const Vec2 a(1 + any(random), 1 + any(random)), b(7 + any(random), 5 + any(random));
     const Vec2 foot = a + any(random) * (b - a);
-    const CrackRegistry registry = resolved({{a, b}, {foot + Vec2(-any(random), 1 + any(random)), foot}});
+    const CrackRegistry registry =
+        resolved({{a, b}, {foot + Vec2(-any(random), 1 + any(random)), foot}});
     ASSERT_EQ(end_of(registry, 1, 1).state, TipState::coalesced);
     crossings += int(events_of(registry, EventKind::crossing).size());
   }

@@ -214,6 +214,15 @@ TEST(CutElementSlivers, ThinLayerAlongASideLeavesItClosed) {
   EXPECT_NEAR(found[0].t1 - found[0].t0, 1.0, 1e-12);
 }
 
+TEST(CutElementSlivers, OfTwoElementsStayJoined) {
+  // the layer has changed sides in both elements, so nothing lies between its two halves
+  const ElementCuts cuts = cuts_of({{{0, 1.00005}, {3, 1.00005}}});
+  double open = 0.0;
+  for (const SideContact& c : contacts(cuts.side({0, 1}, 1), cuts.side(middle, 3)))
+    if (c.open) open += c.t1 - c.t0;
+  EXPECT_NEAR(open, 1.0, 1e-12);
+}
+
 TEST(ContactsTest, WholeSidesMeetOpenly) {
   const std::vector<SidePortion> whole{SidePortion{}};
   const auto found = contacts(whole, whole);
@@ -222,10 +231,19 @@ TEST(ContactsTest, WholeSidesMeetOpenly) {
   EXPECT_EQ(found[0].t1 - found[0].t0, 1.0);
 }
 
+SidePortion portion(double t0, double t1, int part, int step = -1) {
+  SidePortion p;
+  p.t0 = t0;
+  p.t1 = t1;
+  p.part = part;
+  p.closed = step >= 0;
+  p.step = step;
+  return p;
+}
+
 TEST(ContactsTest, PortionsAreLaidOverEachOther) {
-  const std::vector<SidePortion> first{{0, 0.3, 5, false, -1}, {0.3, 1, 6, false, -1}};
-  const std::vector<SidePortion> second{{0, 0.3, 1, false, -1}, {0.3, 0.8, 2, true, 9}, {0.8, 1, 3, false, -1}};
-  const auto found = contacts(first, second);
+  const auto found = contacts({portion(0, 0.3, 5), portion(0.3, 1, 6)},
+                              {portion(0, 0.3, 1), portion(0.3, 0.8, 2, 9), portion(0.8, 1, 3)});
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[1].first, 6);
   EXPECT_EQ(found[1].second, 2);
@@ -233,6 +251,14 @@ TEST(ContactsTest, PortionsAreLaidOverEachOther) {
   EXPECT_EQ(found[1].step, 9);
   EXPECT_TRUE(found[0].open && found[2].open);
   EXPECT_EQ(found[2].t0, 0.8);
+}
+
+TEST(ContactsTest, CrackThatEndsOnTheSideClosesItUpToThere) {
+  const std::vector<SidePortion> side{portion(0, 0.4, 0, 9), portion(0.4, 1, 0)};
+  const auto found = contacts(side, side);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_FALSE(found[0].open);
+  EXPECT_TRUE(found[1].open);
 }
 
 TEST(ContactsTest, CrackThroughTheSideParts) {
@@ -278,7 +304,8 @@ TEST(CrackFacesTest, StayOnTheGridLineWhenTheCrackLeavesItForAnElement) {
 }
 
 TEST(CrackFacesTest, RemainWhereTwoTipsLookAtEachOther) {
-  EXPECT_NEAR(length_of_faces(cuts_of({{{0.5, 1.5}, {1.4, 1.5}}, {{2.5, 1.5}, {1.6, 1.5}}})), 1.8, 1e-12);
+  EXPECT_NEAR(length_of_faces(cuts_of({{{0.5, 1.5}, {1.4, 1.5}}, {{2.5, 1.5}, {1.6, 1.5}}})), 1.8,
+              1e-12);
 }
 
 TEST(RandomCracks, KeepElementsWhole) {

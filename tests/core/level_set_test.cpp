@@ -168,16 +168,19 @@ TEST(NarrowBandTest, HoldsTheElementsWithinTheMargin) {
     std::set<GlobalId> band;
     for (const GridIndex e : narrow_band(grid, crack, margin)) band.insert(grid.element(e));
     // where the crack cuts off a corner, the band may be narrower by one
-    const auto within = surroundings(grid, paths, margin - 1), widest = surroundings(grid, paths, margin);
+    const auto within = surroundings(grid, paths, margin - 1),
+               widest = surroundings(grid, paths, margin);
     EXPECT_TRUE(std::includes(band.begin(), band.end(), within.begin(), within.end()));
     EXPECT_TRUE(std::includes(widest.begin(), widest.end(), band.begin(), band.end()));
   }
 }
 
 /// Sum of the weights of every node.
-std::map<GlobalId, int> weights_of(const StructuredGrid& grid, const Crack& crack, double tip_radius) {
+std::map<GlobalId, int> weights_of(const StructuredGrid& grid, const Crack& crack,
+                                   double tip_radius) {
   std::map<GlobalId, int> sum;
-  for (const CellWeight& w : cell_weights(grid, {crack}, tip_radius)) sum[grid.node(w.node)] += w.extra;
+  for (const CellWeight& w : cell_weights(grid, {crack}, tip_radius))
+    sum[grid.node(w.node)] += w.extra;
   return sum;
 }
 
@@ -208,8 +211,9 @@ TEST(CellWeightsTest, TheRadiusOfATipCounts) {
       EXPECT_GE(weights.at(id), 8);
     }
   }
-  EXPECT_EQ(std::count_if(weights.begin(), weights.end(), [](const auto& w) { return w.second >= 8; }),
-            within);
+  EXPECT_EQ(
+      std::count_if(weights.begin(), weights.end(), [](const auto& w) { return w.second >= 8; }),
+      within);
 }
 
 }  // namespace

@@ -212,9 +212,10 @@ class HaloParallel : public ::testing::TestWithParam<HaloCase> {
  protected:
   void SetUp() override {
     const HaloCase& c = GetParam();
-    mesh_ = LocalMesh(grid_, partition_by(grid_, c.block,
-                                          [&](int i, int j) { return c.owner(i, j, world().size()); }),
-                      world().rank());
+    mesh_ = LocalMesh(
+        grid_,
+        partition_by(grid_, c.block, [&](int i, int j) { return c.owner(i, j, world().size()); }),
+        world().rank());
     std::vector<SharedUnknowns> shared;
     for (const SharedNodes& s : mesh_.shared()) shared.push_back({s.rank, s.owned, s.ghosts});
     halo_ = Halo(world(), std::move(shared));
@@ -226,7 +227,8 @@ class HaloParallel : public ::testing::TestWithParam<HaloCase> {
 
 TEST_P(HaloParallel, CopiesTheOwnersValuesToTheGhosts) {
   std::vector<double> values(std::size_t(mesh_.node_count()), -1.0);
-  for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) values[std::size_t(n)] = double(mesh_.node_id(n));
+  for (LocalId n = 0; n < mesh_.owned_nodes(); ++n)
+    values[std::size_t(n)] = double(mesh_.node_id(n));
   for (int repeat = 0; repeat < 2; ++repeat) halo_.copy_state(values);
   for (LocalId n = 0; n < mesh_.node_count(); ++n)
     EXPECT_EQ(values[std::size_t(n)], double(mesh_.node_id(n)));
@@ -251,14 +253,13 @@ TEST_P(HaloParallel, AddsTheForcesOnGhostsToTheOwnersAndClearsThem) {
 
 INSTANTIATE_TEST_SUITE_P(
     Partitions, HaloParallel,
-    ::testing::Values(HaloCase{"stripes", 1, [](int i, int, int ranks) { return i % ranks; }},
-                      HaloCase{"blocks", 3, [](int i, int j, int ranks) { return (i + j) % ranks; }},
-                      HaloCase{"scattered", 1,
-                               [](int i, int j, int ranks) { return (3 * i + 5 * j) / 2 % ranks; }},
-                      HaloCase{"nothing_on_the_last_rank", 2,
-                               [](int i, int j, int ranks) {
-                                 return ranks == 1 ? 0 : (i + j) % (ranks - 1);
-                               }}),
+    ::testing::Values(
+        HaloCase{"stripes", 1, [](int i, int, int ranks) { return i % ranks; }},
+        HaloCase{"blocks", 3, [](int i, int j, int ranks) { return (i + j) % ranks; }},
+        HaloCase{"scattered", 1,
+                 [](int i, int j, int ranks) { return (3 * i + 5 * j) / 2 % ranks; }},
+        HaloCase{"nothing_on_the_last_rank", 2,
+                 [](int i, int j, int ranks) { return ranks == 1 ? 0 : (i + j) % (ranks - 1); }}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -56,7 +56,8 @@ class NearTipTest : public ::testing::TestWithParam<BentCrack> {
   double from_bend(const Vec2& x) const {
     double nearest = 1e300;
     for (std::size_t k = 1; k < path().size(); ++k)
-      nearest = std::min(nearest, std::abs((x - path()[0]).norm() - (path()[k] - path()[0]).norm()));
+      nearest =
+          std::min(nearest, std::abs((x - path()[0]).norm() - (path()[k] - path()[0]).norm()));
     return nearest;
   }
   TipFrame frame_{GetParam().path, false};
@@ -70,7 +71,8 @@ TEST_P(NearTipTest, GradientsAreDifferences) {
   for (int k = 0; k < 300; ++k) {
     const Vec2 x = frame_.tip() + Vec2(any(random), any(random));
     if ((x - frame_.tip()).norm() < 0.05 || from_bend(x) < 1e-4) continue;
-    if (crosses_the_crack(x - Vec2(h, h), x + Vec2(h, h)) || crosses_the_crack(x - Vec2(h, -h), x + Vec2(h, -h)))
+    if (crosses_the_crack(x - Vec2(h, h), x + Vec2(h, h)) ||
+        crosses_the_crack(x - Vec2(h, -h), x + Vec2(h, -h)))
       continue;
     ++compared;
     const TipPolar at = frame_.polar(x);
@@ -80,10 +82,12 @@ TEST_P(NearTipTest, GradientsAreDifferences) {
       d[axis] = h;
       const TipPolar low = frame_.polar(x - d), high = frame_.polar(x + d);
       EXPECT_NEAR((high.r - low.r) / (2 * h), at.grad_r[axis], 1e-8);
-      EXPECT_NEAR((high.theta - low.theta) / (2 * h), at.grad_theta[axis], 1e-5 * (1 + at.grad_theta.norm()));
+      EXPECT_NEAR((high.theta - low.theta) / (2 * h), at.grad_theta[axis],
+                  1e-5 * (1 + at.grad_theta.norm()));
       const auto f_low = near_tip_functions(low).value, f_high = near_tip_functions(high).value;
       for (std::size_t l = 0; l < 4; ++l)
-        EXPECT_NEAR((f_high[l] - f_low[l]) / (2 * h), f.gradient[l][axis], 1e-5 * (1 + f.gradient[l].norm()));
+        EXPECT_NEAR((f_high[l] - f_low[l]) / (2 * h), f.gradient[l][axis],
+                    1e-5 * (1 + f.gradient[l].norm()));
     }
   }
   EXPECT_GT(compared, 250);
@@ -93,14 +97,16 @@ TEST_P(NearTipTest, AnglesOnTheFacesArePlusAndMinusPi) {
   for (std::size_t k = 0; k + 1 < path().size(); ++k) {
     for (const double t : {0.01, 0.3, 0.5, 0.99}) {
       const Vec2 x = path()[k] + t * (path()[k + 1] - path()[k]);
-      const TipPolar plus = frame_.polar(x, FaceSide::plus), minus = frame_.polar(x, FaceSide::minus);
+      const TipPolar plus = frame_.polar(x, FaceSide::plus),
+                     minus = frame_.polar(x, FaceSide::minus);
       EXPECT_NEAR(plus.theta, pi, 1e-12);
       EXPECT_NEAR(minus.theta, -pi, 1e-12);
       const double root = std::sqrt((x - frame_.tip()).norm());
       EXPECT_NEAR(near_tip_functions(plus).value[0], root, 1e-12);
       EXPECT_NEAR(near_tip_functions(minus).value[0], -root, 1e-12);
       for (std::size_t l = 1; l < 4; ++l)
-        EXPECT_NEAR(near_tip_functions(plus).value[l], 0.0, 1e-12) << "only the first opens the crack";
+        EXPECT_NEAR(near_tip_functions(plus).value[l], 0.0, 1e-12)
+            << "only the first opens the crack";
     }
   }
 }

@@ -106,14 +106,17 @@ const std::vector<Arrangement> arrangements{
     {"tip_behind_a_kink", line({{0, 0.3}, {0.4, 0.4}, {0.5, 0.7}}), 2},
     {"tip_that_looks_at_a_corner", line({{0, 0}, {0.4, 0.4}}), 2},
     {"two_tips_side_by_side", line({{0, 0.3}, {0.4, 0.3}}) + line({{1, 0.7}, {0.6, 0.7}}, 1), 3},
-    {"two_tips_that_meet_head_on", line({{0, 0.5}, {0.4, 0.5}}) + line({{1, 0.5}, {0.6, 0.5}}, 1), 2},
+    {"two_tips_that_meet_head_on", line({{0, 0.5}, {0.4, 0.5}}) + line({{1, 0.5}, {0.6, 0.5}}, 1),
+     2},
     {"crack_inside", line({{0.3, 0.4}, {0.6, 0.5}}), 2},
     {"tip_that_looks_at_a_crack", line({{0, 0.5}, {0.4, 0.5}}) + line({{0.7, 0}, {0.6, 1}}, 1), 3},
     {"crossing", line({{0, 0.3}, {1, 0.7}}) + line({{0.4, 0}, {0.5, 1}}, 1), 4},
     {"crossing_at_the_middle", line({{0, 0}, {1, 1}}) + line({{0, 1}, {1, 0}}, 1), 4},
     {"touching", line({{0, 0.3}, {0.5, 0.5}, {1, 0.7}}) + line({{0.4, 1}, {0.5, 0.5}}, 1), 3},
     {"meeting_inside",
-     line({{0, 0.3}, {0.5, 0.5}}) + line({{1, 0.4}, {0.5, 0.5}}, 1) + line({{0.6, 1}, {0.5, 0.5}}, 2), 3},
+     line({{0, 0.3}, {0.5, 0.5}}) + line({{1, 0.4}, {0.5, 0.5}}, 1) +
+         line({{0.6, 1}, {0.5, 0.5}}, 2),
+     3},
     {"three_that_cross",
      line({{0, 0.3}, {1, 0.4}}) + line({{0.2, 0}, {0.7, 1}}, 1) + line({{0.8, 0}, {0.3, 1}}, 2), 7},
     {"three_through_one_place",
@@ -177,7 +180,8 @@ TEST(PlanarSubdivisionEdges, LieBetweenTheFacesOnTheirSides) {
 TEST(PlanarSubdivisionTips, AreCornersOfTheFacesRoundThem) {
   const PlanarSubdivision plane(line({{0, 0.3}, {0.4, 0.4}}));
   int virtual_edges = 0;
-  for (const SubdivisionEdge& e : plane.edges()) virtual_edges += e.tag == PlanarSubdivision::prolonged;
+  for (const SubdivisionEdge& e : plane.edges())
+    virtual_edges += e.tag == PlanarSubdivision::prolonged;
   EXPECT_EQ(virtual_edges, 1);
   for (std::size_t k = 0; k < 2; ++k) {
     const auto loop = plane.loop(k);

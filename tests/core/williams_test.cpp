@@ -44,7 +44,8 @@ TEST_P(WilliamsTest, GradientIsThatOfTheDisplacement) {
 }
 
 TEST_P(WilliamsTest, StressIsThatOfTheGradient) {
-  for (const Vec2& x : places_) EXPECT_LT((at(x).stress - material_.stress(at(x).gradient)).norm(), 1e-13);
+  for (const Vec2& x : places_)
+    EXPECT_LT((at(x).stress - material_.stress(at(x).gradient)).norm(), 1e-13);
 }
 
 TEST_P(WilliamsTest, IsInEquilibrium) {
@@ -83,7 +84,8 @@ TEST_P(WilliamsTest, FacesMoveApartAsIrwinHasIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, WilliamsTest,
-                         ::testing::Values(Case{1, false}, Case{2, false}, Case{1, true}, Case{2, true}));
+                         ::testing::Values(Case{1, false}, Case{2, false}, Case{1, true},
+                                           Case{2, true}));
 
 TEST(MaterialTest, StretchingInPlaneStressNeedsNoSideForce) {
   const Material material{7.0, 0.3, false};

@@ -46,7 +46,7 @@ class ProgramTest(unittest.TestCase):
         """Runs the program in a folder of its own, on a number of ranks or without mpirun."""
         command = [PROGRAM, *map(str, arguments)]
         if ranks:
-            command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+            command = [MPIEXEC, "--quiet", "--timeout", "50", "-n", str(ranks), *command]
         return subprocess.run(command, cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, timeout=60, check=False)
 

@@ -53,7 +53,7 @@ double half_angle_of_arc(const ReferenceCase& c) {
 }
 
 std::vector<Vec2> arc_points(double half_angle) {
-  constexpr int segments = 40;
+  constexpr int segments = 80;
   std::vector<Vec2> points;
   for (int k = 0; k <= segments; ++k) {
     const double angle = pi / 2 + half_angle * (1.0 - 2.0 * k / segments);
@@ -226,12 +226,11 @@ ReferenceTolerance tolerance_of(const ReferenceCase& c) {
   ReferenceTolerance t;
   for (const auto& [key, value] : c.json.at("tolerance").items()) {
     if (key == "mesh" || key == "range") continue;  // see reference_static_test.cpp
-    const std::map<std::string, std::optional<double>*> known{
-        {"K_rel", &t.k_rel},
-        {"KII_abs_over_Kmax", &t.k2_over_max},
-        {"K_abs_over_Kmax", &t.k_over_max},
-        {"K_rel_of_max", &t.k_rel_of_max},
-        {"stress_rel", &t.stress_rel}};
+    const std::map<std::string, std::optional<double>*> known{{"K_rel", &t.k_rel},
+                                                              {"KII_abs_over_Kmax", &t.k2_over_max},
+                                                              {"K_abs_over_Kmax", &t.k_over_max},
+                                                              {"K_rel_of_max", &t.k_rel_of_max},
+                                                              {"stress_rel", &t.stress_rel}};
     const auto it = known.find(key);
     if (it == known.end()) not_understood(c, "tolerance " + key);
     *it->second = value.get<double>();

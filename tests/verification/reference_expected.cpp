@@ -49,10 +49,8 @@ std::vector<ExpectedTip> collinear_tips(const ReferenceGeometry& g, const json& 
   const double inner = root_pi * r.at("F_inner").get<double>();
   const double outer = root_pi * r.at("F_outer").get<double>();
   const auto &left = g.cracks.at(0).points, &right = g.cracks.at(1).points;
-  return {{left.front(), outer},
-          {left.back(), inner},
-          {right.front(), inner},
-          {right.back(), outer}};
+  return {
+      {left.front(), outer}, {left.back(), inner}, {right.front(), inner}, {right.back(), outer}};
 }
 
 std::vector<ExpectedTip> arc_tips(const ReferenceGeometry& g, const json& r) {

@@ -61,9 +61,8 @@ Vec2 PlaneRim::displacement(const Vec2& x) const {
     // [u]_i S_ijk n_j with S_ijk = -((1 - 2 nu)(D_ik d_j + D_jk d_i - D_ij d_k) + 2 d_i d_j d_k)
     //                              / (4 pi (1 - nu) r)
     const double dn = d.dot(j.normal), dj = d.dot(j.jump);
-    const Vec2 sum =
-        (1 - 2 * poisson_) * (dn * j.jump + dj * j.normal - j.jump.dot(j.normal) * d) +
-        2 * dj * dn * d;
+    const Vec2 sum = (1 - 2 * poisson_) * (dn * j.jump + dj * j.normal - j.jump.dot(j.normal) * d) +
+                     2 * dj * dn * d;
     u -= sum / (4 * std::numbers::pi * (1 - poisson_) * r);
   }
   return u;

@@ -47,9 +47,7 @@ std::string row_of(const ReferenceResult& r) {
 }
 
 /// "| id | ..." -> id
-std::string id_of(const std::string& row) {
-  return row.substr(2, row.find(" |", 2) - 2);
-}
+std::string id_of(const std::string& row) { return row.substr(2, row.find(" |", 2) - 2); }
 
 struct Page {
   std::vector<std::string> before, rows, after;
@@ -89,6 +87,21 @@ void sort_rows(std::vector<std::string>& rows) {
                    [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
 }
 
+/// The tags of which the table has no case.
+std::string missing_tags(const std::vector<std::string>& rows) {
+  auto tags = reference_tags();
+  tags.erase("information");  // asks for nothing
+  for (const ReferenceCase& c : reference_cases()) {
+    const auto is_mine = [&c](const std::string& row) { return id_of(row) == c.id; };
+    if (std::any_of(rows.begin(), rows.end(), is_mine)) tags.erase(c.tag);
+  }
+  std::string list;
+  for (const auto& [tag, count] : tags) {
+    list += (list.empty() ? "" : ", ") + tag + " (" + std::to_string(count) + ")";
+  }
+  return list.empty() ? "All tags have results." : "Tags without results yet: " + list + ".";
+}
+
 /// How many cases are within their tolerance, and which are not.
 std::vector<std::string> summary_of(const std::vector<std::string>& rows) {
   int inside = 0, elsewhere = 0;
@@ -106,7 +119,7 @@ std::vector<std::string> summary_of(const std::vector<std::string>& rows) {
   text << inside << " of " << int(rows.size()) - elsewhere << " cases are within their tolerance";
   if (elsewhere > 0) text << "; " << elsewhere << " more are tested elsewhere";
   text << ". Outside: " << (outside.empty() ? "none" : outside) << ".";
-  return {"", text.str(), ""};
+  return {"", text.str(), "", missing_tags(rows), ""};
 }
 
 double magnitude(const ExpectedTip& tip) { return std::hypot(tip.k1, tip.k2); }
@@ -151,9 +164,9 @@ std::vector<Comparison> compare_tips(const std::vector<ExpectedTip>& expected,
 std::string log_of(const ReferenceResult& result) {
   std::ostringstream text;
   for (const Comparison& c : result.comparisons) {
-    text << result.id << ": " << c.place << " " << c.quantity << " " << number(c.computed, 6) << " / "
-         << number(c.reference, 6) << ", error " << percent(c.error) << " of " << percent(c.allowed)
-         << (c.share() <= 1 ? "" : "  <-- outside") << "\n";
+    text << result.id << ": " << c.place << " " << c.quantity << " " << number(c.computed, 6)
+         << " / " << number(c.reference, 6) << ", error " << percent(c.error) << " of "
+         << percent(c.allowed) << (c.share() <= 1 ? "" : "  <-- outside") << "\n";
   }
   if (result.comparisons.empty()) text << result.id << ": " << result.note << "\n";
   return text.str();

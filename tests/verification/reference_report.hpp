@@ -33,7 +33,8 @@ struct ReferenceResult {
 
 /// Errors of K_I and K_II as the tolerance of the case measures them:
 ///
-///   K_rel with KII_abs_over_Kmax or K_abs_over_Kmax   K_I relative to its reference (to K_max where
+///   K_rel with KII_abs_over_Kmax or K_abs_over_Kmax   K_I relative to its reference (to K_max
+///   where
 ///                          that is below K_max / 1000), K_II relative to K_max of the whole case
 ///   K_rel alone            both relative to |K| = sqrt(K_I^2 + K_II^2) of the tip
 ///   K_rel_of_max           both relative to K_max, the largest |K| of the case

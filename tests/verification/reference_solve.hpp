@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/mechanics/interaction_integral.hpp"
-#include "tests/verification/reference_plane.hpp"
 #include "tests/verification/reference_cases.hpp"
+#include "tests/verification/reference_plane.hpp"
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace cdca::testing {
 
 /// The grid of a case: elements at most a/20 wide, a the half length (of an edge crack the length)
 /// of the shortest crack, and at most an eighth of the way from a tip to a bend, another crack or
-/// the rim; near-tip functions on all nodes within four such lengths of a tip. Rectangle: the
+/// the rim; near-tip functions on all nodes within 4.2 such lengths of a tip. Rectangle: the
 /// plate, or two longest half lengths round the cracks of an infinite plane.
 struct ReferenceGrid {
   Vec2 lower{0, 0};
