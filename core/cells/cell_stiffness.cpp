@@ -9,9 +9,11 @@ namespace cdca {
 namespace {
 
 /// A cell is regular when its support is whole, untouched by cracks and material of this rank, and
-/// none of its neighbours has more than its two plain unknowns.
-bool is_regular(const BasisContext& context, LocalId node) {
+/// none of its neighbours has more than its two plain unknowns; and no support holds it.
+bool is_regular(const BasisContext& context, const std::vector<char>& held, LocalId node) {
   const GridIndex at = context.mesh.node(node);
+  const auto unknown = std::size_t(context.unknowns.of_piece(node, 0));
+  if (held[unknown] || held[unknown + 1]) return false;
   for (const GridIndex e : context.mesh.grid().elements_round(at)) {
     if (!context.mesh.grid().has_element(e) || context.cuts.touched(e)) return false;
   }
@@ -68,7 +70,7 @@ CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& e
       count_(context.unknowns.count()) {
   const LocalMesh& mesh = context.mesh;
   std::vector<char> regular(std::size_t(mesh.node_count()), 0);
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) regular[std::size_t(n)] = is_regular(context, n);
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) regular[std::size_t(n)] = is_regular(context, held, n);
   regular_ = RegularRuns(mesh, regular, plain_stiffness(mesh.grid().element_size(), elastic));
   build_rows(context, elastic, regular, cache);
   if (!loose.empty()) add_springs(loose);

@@ -150,10 +150,20 @@ void PlanarSubdivision::shoot(int from, const Vec2& direction) {
       hit_edge = k;
     }
   }
+  // a vertex on the ray may be the tip of a crack that comes the other way
+  int met = -1;
+  const Vec2 way = target - start;
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    const double t = (vertices_[v] - start).dot(way) / way.squaredNorm();
+    const bool on_ray = (start + t * way - vertices_[v]).norm() < same_point;
+    if (int(v) == from || !on_ray || t * way.norm() <= same_point || t > first + 1e-12) continue;
+    first = t;
+    met = int(v);
+  }
   const bool reaches_rim = hit_edge == edges_.size();
-  const int vertex = vertex_at(reaches_rim ? target : Vec2(start + first * (target - start)));
+  const int vertex = met >= 0 ? met : vertex_at(reaches_rim ? target : Vec2(start + first * way));
   if (vertex == from) return;
-  if (!reaches_rim && edges_[hit_edge].a != vertex && edges_[hit_edge].b != vertex) {
+  if (met < 0 && !reaches_rim && edges_[hit_edge].a != vertex && edges_[hit_edge].b != vertex) {
     split_edge(hit_edge, vertex);
   }
   add_edge(from, vertex, prolonged);

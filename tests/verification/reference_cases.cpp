@@ -122,17 +122,19 @@ std::string test_name(const ReferenceCase& reference) {
 }
 
 std::vector<ReferenceCase> reference_cases() {
-  static const json file = read_json("cases");
+  static const json file = read_json("cases"), paths = read_json("paths");
   std::vector<ReferenceCase> cases;
   for (const json& c : file.at("cases")) cases.push_back({c.at("id"), c.at("tag"), c});
+  for (const auto& [name, path] : paths.at("paths").items()) {
+    cases.push_back({name, path.at("tag"), path});
+    cases.back().json["group"] = "paths";
+  }
   return cases;
 }
 
 std::map<std::string, int> reference_tags() {
   std::map<std::string, int> count;
   for (const ReferenceCase& c : reference_cases()) ++count[c.tag];
-  const json paths = read_json("paths");
-  for (const json& path : paths.at("paths")) ++count[path.at("tag")];
   return count;
 }
 

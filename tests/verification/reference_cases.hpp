@@ -23,9 +23,10 @@ struct ReferenceCase {
 void PrintTo(const ReferenceCase& reference, std::ostream* out);
 std::string test_name(const ReferenceCase& reference);
 
-/// All cases of cases.json, in its order.
+/// All cases of cases.json and then all paths of paths.json (whose group is "paths"), in their
+/// order.
 std::vector<ReferenceCase> reference_cases();
-/// How many entries of cases.json and paths.json carry each tag.
+/// How many of them carry each tag.
 std::map<std::string, int> reference_tags();
 
 /// Cracks in a rectangle or in an infinite plane. Lengths in the unit of the case.
