@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/base/first_failure.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <algorithm>
 #include <span>
-
-#include "core/base/errors.hpp"
 
 namespace cdca {
 
@@ -13,8 +13,8 @@ std::string first_failure(Communicator& communicator, const std::string& mine) {
   Bytes bytes;
   pack(bytes, std::span<const char>(mine));
   const auto messages = communicator.gather(bytes);
-  const auto first = std::find_if(messages.begin(), messages.end(),
-                                  [](const Bytes& b) { return !b.empty(); });
+  const auto first =
+      std::find_if(messages.begin(), messages.end(), [](const Bytes& b) { return !b.empty(); });
   Bytes shown = first == messages.end() ? Bytes{} : *first;
   communicator.broadcast(shown);
   const auto letters = unpack<char>(shown);

@@ -2,10 +2,10 @@
 /// Work that may fail on one rank, so that all ranks learn of it and none waits for ever.
 #pragma once
 
+#include "core/base/communicator.hpp"
+
 #include <functional>
 #include <string>
-
-#include "core/base/communicator.hpp"
 
 namespace cdca {
 

@@ -70,7 +70,8 @@ CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& e
       count_(context.unknowns.count()) {
   const LocalMesh& mesh = context.mesh;
   std::vector<char> regular(std::size_t(mesh.node_count()), 0);
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) regular[std::size_t(n)] = is_regular(context, held, n);
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n)
+    regular[std::size_t(n)] = is_regular(context, held, n);
   regular_ = RegularRuns(mesh, regular, plain_stiffness(mesh.grid().element_size(), elastic));
   build_rows(context, elastic, regular, cache);
   if (!loose.empty()) add_springs(loose);
@@ -234,7 +235,8 @@ void CellStiffness::colour_ranks(const LocalMesh& mesh) {
     int neighbour;
   };
   std::vector<Border> mine;
-  for (const SharedNodes& shared : mesh.shared()) mine.push_back({communicator_.rank(), shared.rank});
+  for (const SharedNodes& shared : mesh.shared())
+    mine.push_back({communicator_.rank(), shared.rank});
   const auto borders = communicator_.agree(mine, [](const Border& a, const Border& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.neighbour < b.neighbour;
   });
@@ -242,7 +244,8 @@ void CellStiffness::colour_ranks(const LocalMesh& mesh) {
   for (int rank = 0; rank < communicator_.size(); ++rank) {
     std::vector<char> taken(colour.size() + 1, 0);
     for (const Border& b : borders) {
-      if (b.rank == rank && b.neighbour < rank) taken[std::size_t(colour[std::size_t(b.neighbour)])] = 1;
+      if (b.rank == rank && b.neighbour < rank)
+        taken[std::size_t(colour[std::size_t(b.neighbour)])] = 1;
     }
     int& own = colour[std::size_t(rank)];
     while (taken[std::size_t(own)]) ++own;

@@ -84,7 +84,7 @@ class CellStiffness final : public CellSystem {
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;
-  int colour_ = 0;   ///< ranks of one colour share no element
+  int colour_ = 0;  ///< ranks of one colour share no element
   int colours_ = 1;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/part_stiffness.hpp"
 
-#include <algorithm>
-
 #include "core/cells/quadrature.hpp"
 #include "core/mesh/shape_functions.hpp"
+
+#include <algorithm>
 
 namespace cdca {
 
@@ -64,9 +64,8 @@ PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int
     stiffness.unknowns.push_back(u);
     stiffness.unknowns.push_back(u + 1);
   }
-  const auto points = basis.has_tip_functions()
-                          ? tip_quadrature(cut, part, basis.tip_places(), h)
-                          : plain_quadrature(cut, part);
+  const auto points = basis.has_tip_functions() ? tip_quadrature(cut, part, basis.tip_places(), h)
+                                                : plain_quadrature(cut, part);
   const auto count = Eigen::Index(first.size());
   const GradientProducts p = gradient_products(basis, count, h, points);
   // B^T D B for B = (N,x 0; 0 N,y; N,y N,x), block by block

@@ -113,7 +113,8 @@ std::pair<std::size_t, const SingularPlace*> tip_at_corner(const Triangle& t,
 }
 
 /// Is another tip too near for points that look at this one only?
-bool others_near(const Triangle& t, const SingularPlace* tip, const std::vector<SingularPlace>& tips) {
+bool others_near(const Triangle& t, const SingularPlace* tip,
+                 const std::vector<SingularPlace>& tips) {
   for (const SingularPlace& other : tips) {
     if (&other != tip && distance(t, other.at) < longest_side(t)) return true;
   }
@@ -123,7 +124,8 @@ bool others_near(const Triangle& t, const SingularPlace* tip, const std::vector<
 void add_graded(const Triangle& t, const std::vector<SingularPlace>& tips, int depth,
                 std::vector<QuadraturePoint>& points) {
   if (twice_area(t) <= 1e-16) return;
-  if (const auto [corner, tip] = tip_at_corner(t, tips); tip && (depth == 0 || !others_near(t, tip, tips))) {
+  if (const auto [corner, tip] = tip_at_corner(t, tips);
+      tip && (depth == 0 || !others_near(t, tip, tips))) {
     add_collapsed({t[corner], t[(corner + 1) % 3], t[(corner + 2) % 3]}, *tip, points);
     return;
   }

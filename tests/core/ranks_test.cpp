@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The answer must not depend on the number of ranks, nor on which cells they own.
-#include <gtest/gtest.h>
-
 #include "core/mechanics/interaction_integral.hpp"
 #include "tests/plates.hpp"
+
+#include <gtest/gtest.h>
 
 namespace cdca::testing {
 namespace {
@@ -47,8 +47,8 @@ Answer answer_of(const CaseSpec& spec, Model& model) {
   model.build_stiffness();
   const Equilibrium e = find_equilibrium(model, *make_solver(spec.solver), 1.0);
   Answer a;
-  a.tips = stress_intensities(model.basis(), model.registry().cracks(), model.material(), model.loads(1.0),
-                              model.state(), model.communicator());
+  a.tips = stress_intensities(model.basis(), model.registry().cracks(), model.material(),
+                              model.loads(1.0), model.state(), model.communicator());
   a.energy = e.strain_energy;
   a.reactions = e.reactions;
   a.nodes.assign(std::size_t(2 * model.grid().node_count()), 0.0);
@@ -72,7 +72,8 @@ void expect_same(const Answer& one, const Answer& many) {
   EXPECT_EQ(one.unknowns, many.unknowns);
   ASSERT_EQ(one.tips.size(), many.tips.size());
   double largest = 0.0, farthest = 0.0;
-  for (const StressIntensity& k : one.tips) largest = std::max({largest, std::abs(k.k1), std::abs(k.k2)});
+  for (const StressIntensity& k : one.tips)
+    largest = std::max({largest, std::abs(k.k1), std::abs(k.k2)});
   for (std::size_t t = 0; t < one.tips.size(); ++t) {
     EXPECT_NEAR(one.tips[t].k1, many.tips[t].k1, 1e-6 * largest);
     EXPECT_NEAR(one.tips[t].k2, many.tips[t].k2, 1e-6 * largest);
@@ -91,7 +92,8 @@ void expect_same(const Answer& one, const Answer& many) {
 BlockPartition scattered(const StructuredGrid& grid, int ranks, int shift) {
   std::vector<int> owner;
   for (int j = 0; j <= grid.ny(); ++j) {
-    for (int i = 0; i <= grid.nx(); ++i) owner.push_back(((i + shift) / 3 + 2 * ((j + shift) / 4)) % ranks);
+    for (int i = 0; i <= grid.nx(); ++i)
+      owner.push_back(((i + shift) / 3 + 2 * ((j + shift) / 4)) % ranks);
   }
   return {grid, 1, owner};
 }

@@ -88,10 +88,12 @@ ExactField linear(const Eigen::Matrix2d& g, const Vec2& shift) {
 TEST_P(Patch, ConstantStrain) {
   Eigen::Matrix2d g;
   g << 1.0e-3, 0.4e-3, -0.7e-3, 0.6e-3;
-  // where a crack bends within reach of its tip, near-tip functions have kinks: quadrature, not exact
+  // where a crack bends within reach of its tip, near-tip functions have kinks: quadrature, not
+  // exact
   const double relative = std::string(GetParam().name) == "kinked_tip" ? 2e-3 : 1e-10;
   for (const double tip_radius : {0.0, 0.5}) {
-    EXPECT_LT(largest_error(spec(tip_radius), linear(g, {0, 0})), relative * 1e-3 * std::sqrt(1000.0))
+    EXPECT_LT(largest_error(spec(tip_radius), linear(g, {0, 0})),
+              relative * 1e-3 * std::sqrt(1000.0))
         << tip_radius;
   }
 }

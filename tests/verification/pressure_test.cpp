@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Loads on crack faces: by superposition a pressure opens a crack as the same tension far away does.
-#include <gtest/gtest.h>
-
+/// Loads on crack faces: by superposition a pressure opens a crack as the same tension far away
+/// does.
 #include "core/mechanics/interaction_integral.hpp"
 #include "tests/plates.hpp"
+
+#include <gtest/gtest.h>
 
 namespace cdca::testing {
 namespace {
@@ -27,7 +28,8 @@ CaseSpec pressurised(CaseSpec spec, double pressure) {
 class PressureLikeTension : public ::testing::TestWithParam<std::vector<Vec2>> {};
 
 TEST_P(PressureLikeTension, SameIntensities) {
-  // p on the faces equals -p everywhere plus p on the rim: biaxial tension, so that any shape will do
+  // p on the faces equals -p everywhere plus p on the rim: biaxial tension, so that any shape will
+  // do
   CaseSpec spec = plate({-1, -1.2}, {1, 1.2}, 61, 73);
   add_crack(spec, GetParam());
   spec.solver.tolerance = 1e-9;
@@ -46,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Cracks, PressureLikeTension,
                          ::testing::Values(std::vector<Vec2>{{-0.4, 0.01}, {0.4, 0.01}},
                                            std::vector<Vec2>{{0.3, 0.3}, {-0.3, -0.2}},
                                            std::vector<Vec2>{{-1, 0.02}, {-0.4, 0.05}},
-                                           std::vector<Vec2>{{-0.4, 0.01}, {0.2, 0.01}, {0.25, 0.08}}));
+                                           std::vector<Vec2>{
+                                               {-0.4, 0.01}, {0.2, 0.01}, {0.25, 0.08}}));
 
 TEST(BodyForce, ReactionsCarryTheWeight) {
   CaseSpec spec = plate({0, 0}, {2, 1}, 12, 7);

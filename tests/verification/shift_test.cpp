@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// K must not depend on how a crack happens to lie in the grid.
+#include "core/mechanics/interaction_integral.hpp"
+#include "tests/plates.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <complex>
 #include <numbers>
-
-#include "core/mechanics/interaction_integral.hpp"
-#include "tests/plates.hpp"
 
 namespace cdca::testing {
 namespace {
@@ -23,7 +23,8 @@ Field westergaard_at(const Vec2& centre, double angle) {
     const Vec2 x = turn.inverse() * (place - centre);
     const std::complex<double> z(x.x(), x.y());
     const auto bar = std::sqrt(z - 1.0) * std::sqrt(z + 1.0), f = z / bar;
-    const Vec2 u((1 - 2 * nu) * bar.real() - x.y() * f.imag(), 2 * (1 - nu) * bar.imag() - x.y() * f.real());
+    const Vec2 u((1 - 2 * nu) * bar.real() - x.y() * f.imag(),
+                 2 * (1 - nu) * bar.imag() - x.y() * f.real());
     return turn * Vec2(u / (2 * mu));
   };
 }
@@ -43,13 +44,15 @@ Range shifted(double angle, int n) {
     for (int j = 0; j < n; ++j) {
       const Vec2 centre(h * i / n, h * j / n);
       const Vec2 along(std::cos(angle), std::sin(angle));
-      CaseSpec spec = plate({-0.5 * cells * h, -0.5 * cells * h}, {0.5 * cells * h, 0.5 * cells * h}, cells, cells);
+      CaseSpec spec = plate({-0.5 * cells * h, -0.5 * cells * h},
+                            {0.5 * cells * h, 0.5 * cells * h}, cells, cells);
       add_crack(spec, {centre - along, centre + along});
       spec.solver.tolerance = 1e-7;
       hold_rim(spec, westergaard_at(centre, angle));
       const Solved s = solved(spec);
-      const auto tips = stress_intensities(s.model->basis(), s.model->registry().cracks(), s.model->material(),
-                                           s.model->loads(1.0), s.model->state(), world());
+      const auto tips =
+          stress_intensities(s.model->basis(), s.model->registry().cracks(), s.model->material(),
+                             s.model->loads(1.0), s.model->state(), world());
       for (const StressIntensity& k : tips) {
         range.low = std::min(range.low, k.k1 / std::sqrt(pi));
         range.high = std::max(range.high, k.k1 / std::sqrt(pi));
@@ -57,8 +60,8 @@ Range shifted(double angle, int n) {
       }
     }
   }
-  std::cout << "angle " << angle * 180 / pi << ", " << n << " x " << n << " shifts: K_I/exact " << range.low << " to "
-            << range.high << ", |K_II| up to " << range.other << "\n";
+  std::cout << "angle " << angle * 180 / pi << ", " << n << " x " << n << " shifts: K_I/exact "
+            << range.low << " to " << range.high << ", |K_II| up to " << range.other << "\n";
   return range;
 }
 
