@@ -38,6 +38,7 @@ std::vector<GridIndex> zone_nodes(const StructuredGrid& grid, const Vec2& at, co
   for (const GridIndex e : elements_holding(grid, at)) {
     for (const GridIndex corner : grid.corners(e)) ids.insert(grid.node(corner));
   }
+  tip_radius *= 1 + 1e-9;  // nodes at just this distance are in, on all sides alike
   const Vec2 reach = tip_radius * grid.element_size().cwiseInverse();
   for (int j = std::max(0, int(at.y() - reach.y()));
        j <= std::min(grid.ny(), int(at.y() + reach.y()) + 1); ++j) {

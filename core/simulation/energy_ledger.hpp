@@ -19,6 +19,9 @@ class EnergyLedger {
   /// the last equilibrium's to this one's.
   void new_cracks_and_factor(const Model& model, const Equilibrium& equilibrium, double factor);
 
+  /// The body has come apart: what was stored is spent.
+  void broken() { strain_energy_ = 0.0; }
+
   double external_work() const { return external_work_; }
   /// External work less strain energy.
   double dissipated() const { return external_work_ - strain_energy_; }

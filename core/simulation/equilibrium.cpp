@@ -4,6 +4,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/first_failure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -26,6 +27,15 @@ void require_convergence(const SolverReport& report, const SolverSpec& spec, dou
 }
 
 }  // namespace
+
+Equilibrium unloaded(Model& model) {
+  std::fill(model.state().begin(), model.state().end(), 0.0);
+  Equilibrium result;
+  result.reactions.assign(model.spec().boundaries.size(), Vec2(0, 0));
+  result.external.assign(model.state().size(), 0.0);
+  result.supports.assign(model.state().size(), 0.0);
+  return result;
+}
 
 Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor) {
   const CellStiffness& cells = model.stiffness();

@@ -20,6 +20,9 @@ struct Equilibrium {
       supports;  ///< nodal forces of the supports, likewise; 0 where nothing is held
 };
 
+/// A body that has come apart carries nothing: no displacement, no force.
+Equilibrium unloaded(Model& model);
+
 /// Starts from the model's state and leaves the new one there, ghosts included. Throws SolveError
 /// when the solver does not converge. Collective.
 Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor);

@@ -149,10 +149,16 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
       std::any_of(plans.begin(), plans.end(), [](const GrowthPlan& p) { return p.correct; });
   if (!any) return;
   const CrackRegistry registry = model.registry();
+  const bool joined = model.joins_loaded_boundaries();
   for (int trial = 0; trial < most_trials; ++trial) {
     CrackRegistry ahead = registry;
     apply_increments(increments_of(model, plans), 1, 0, ahead);
     model.lay_cracks(ahead);
+    if (joined && !model.joins_loaded_boundaries()) {
+      // the step cuts the body apart: there is no field to correct it by
+      model.lay_cracks(registry);
+      return;
+    }
     find_equilibrium(model, solver, load_factor);
     const auto intensities =
         stress_intensities(model.basis(), model.registry().cracks(), model.material(),

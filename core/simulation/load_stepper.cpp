@@ -12,6 +12,7 @@ namespace {
 
 /// Tips whose index differs by less than this grow together, whatever the rank count.
 constexpr double equal_index = 1e-6;
+const char* const cut_apart = "growth has cut the body apart between its loaded boundaries.";
 
 /// A difference between the copies of the registry is a bug that would spoil all that follows.
 void compare_registries(const Model& model) {
@@ -111,6 +112,12 @@ void run_prescribed(Model& model, Recorder& recorder) {
       recorder.cycle(model, result.step, cycle, tips, increments);
       advance(model, increments, result.step, ++cycle);
       separated = joined && !model.joins_loaded_boundaries();
+      if (separated) {
+        equilibrium = unloaded(model);
+        energy.broken();
+        tips.clear();
+        break;
+      }
       equilibrium = solve(model, *solver, result.load_factor, recorder);
       energy.new_cracks(model, equilibrium);
       tips = criterion.assess(model, result.load_factor);
@@ -118,8 +125,7 @@ void run_prescribed(Model& model, Recorder& recorder) {
     recorder.cycle(model, result.step, result.growth_cycles, tips, {});
     if (separated) {
       note(model, EventKind::separated, result.step, result.growth_cycles);
-      recorder.set_status("separated",
-                          "growth has cut the body apart between its loaded boundaries.");
+      recorder.set_status("separated", cut_apart);
       result.last = true;
     }
     recorder.step(model, result, equilibrium, energy, tips);
@@ -136,26 +142,26 @@ void run_critical(Model& model, Recorder& recorder) {
   double largest = 0.0;
   for (int event = 1;; ++event) {
     compare_registries(model);
+    if (joined && !model.joins_loaded_boundaries()) {
+      const Equilibrium nothing = unloaded(model);
+      energy.broken();
+      note(model, EventKind::separated, event, 0);
+      recorder.set_status("separated", cut_apart);
+      recorder.step(model, {event, 0.0, 0, true}, nothing, energy, {});
+      return;
+    }
     Equilibrium equilibrium = solve(model, *solver, 1.0, recorder);
     auto tips = criterion.assess(model, 1.0);
     const double u = greatest_index(tips);
-    const bool separated = joined && !model.joins_loaded_boundaries();
+    if (u <= 0.0) recorder.set_status("completed", "no tip is opened by the loads: nothing grows.");
     // everything is proportional: the first tip reaches 1 at this factor
-    const double factor = u > 0.0 && !separated ? 1.0 / u : 0.0;
-    largest = std::max(largest, factor);
+    const double factor = u > 0.0 ? 1.0 / u : 1.0;
+    if (u > 0.0) largest = std::max(largest, factor);
     StepResult result{event, factor, 1, false};
-    result.last = separated || u <= 0.0 || event == spec.loading.max_events ||
-                  factor < spec.loading.min_factor * largest;
+    result.last =
+        u <= 0.0 || event == spec.loading.max_events || factor < spec.loading.min_factor * largest;
     scale(model, equilibrium, tips, factor);
-    energy.new_cracks_and_factor(model, equilibrium, std::max(factor, 1e-300));
-    if (separated) {
-      note(model, EventKind::separated, event, 0);
-      recorder.set_status("separated",
-                          "growth has cut the body apart between its loaded boundaries.");
-    } else if (u <= 0.0) {
-      recorder.set_status("completed",
-                          "no tip is opened by the loads: nothing grows at any factor.");
-    }
+    energy.new_cracks_and_factor(model, equilibrium, factor);
     if (result.last) {
       recorder.cycle(model, event, 0, tips, {});
       recorder.step(model, result, equilibrium, energy, tips);

@@ -76,7 +76,7 @@ class Model {
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 
-  const CaseSpec& spec_;
+  CaseSpec spec_;
   Communicator& communicator_;
   StructuredGrid grid_;
   Material material_;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -53,6 +54,13 @@ TEST(CaseOptions, HaveWordsForChoicesAndOnlyForThem) {
     EXPECT_TRUE(is_choice || option.later.empty()) << option.path();
     for (const auto& key : words_of(option.excludes))
       EXPECT_NE(find_option(option.section, key), nullptr) << key;
+    const auto condition = option.no_standard_if;
+    if (condition.empty()) continue;
+    const auto* other = find_option(option.section, condition.substr(0, condition.find('=')));
+    ASSERT_NE(other, nullptr) << condition;
+    const auto words = words_of(other->choices);
+    const std::string word(condition.substr(condition.find('=') + 1));
+    EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << condition;
   }
 }
 
@@ -140,8 +148,8 @@ TEST(CaseOptionsEffective, InputHasLoadFactorsInsteadOfSteps) {
 TEST(CaseOptionsEffective, InputHasEveryOptionOfThisVersion) {
   const auto text = read_case_text(plate, "plate.toml").effective;
   for (const auto& option : options()) {
-    const bool is_block = find_section(option.section)->repeated;
-    if (option.whole_key_later || is_block) continue;
+    const auto* section = find_section(option.section);
+    if (option.whole_key_later || section->repeated || section->optional) continue;
     const auto given = "\n" + std::string(option.key) + " = ";
     const auto absent = "\n# " + std::string(option.key) + " is not given";
     EXPECT_TRUE(text.find(given) != std::string::npos || text.find(absent) != std::string::npos)
