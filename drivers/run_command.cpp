@@ -19,8 +19,9 @@ bool run_command(const CommandLine& line, Communicator& ranks) {
   const auto spec = read_case(line.case_file, line.settings, ranks);
   const bool speaks = ranks.is_root() && !line.quiet;
   ResultWriter writer(line.directory, spec.output.every, ranks, spec.effective);
-  ProgressLog log(speaks ? stdout : nullptr, static_cast<int>(spec.load_factors.size()),
-                  speaks && is_terminal());
+  const int total =
+      spec.loading.critical ? spec.loading.max_events : static_cast<int>(spec.load_factors.size());
+  ProgressLog log(speaks ? stdout : nullptr, total, speaks && is_terminal());
   const std::array<Observer*, 2> observers{&writer, &log};
   run_simulation(spec, version, ranks, metis_partition, observers);
   if (speaks) fmt::print("results in {}\n", line.directory);

@@ -3,8 +3,10 @@
 
 #include "io/case_boundaries.hpp"
 #include "io/case_cracks.hpp"
+#include "io/case_growth.hpp"
 #include "io/case_loads.hpp"
 #include "io/case_supports.hpp"
+#include "io/case_table.hpp"
 
 #include <fmt/format.h>
 
@@ -12,41 +14,6 @@ namespace cdca {
 namespace {
 
 using Problems = std::vector<Problem>;
-
-/// The values of one table; what is absent (wrong and taken out, or optional) leaves its target as
-/// it is.
-class TableReader {
- public:
-  TableReader(const ConfigNode& root, std::string_view section) : table_(root.find(section)) {}
-
-  int line() const { return table_ ? table_->line : 0; }
-  const ConfigNode* find(std::string_view key) const {
-    return table_ ? table_->find(key) : nullptr;
-  }
-
-  void read(std::string_view key, double& target) const {
-    if (const auto* node = find(key)) target = node->number;
-  }
-  void read(std::string_view key, std::optional<double>& target) const {
-    if (const auto* node = find(key)) target = node->number;
-  }
-  void read(std::string_view key, int& target) const {
-    if (const auto* node = find(key)) target = static_cast<int>(node->integer);
-  }
-  void read(std::string_view key, bool& target) const {
-    if (const auto* node = find(key)) target = node->boolean;
-  }
-  void read(std::string_view key, Vec2& target) const {
-    if (const auto* node = find(key)) target = {node->items[0].number, node->items[1].number};
-  }
-  bool says(std::string_view key, std::string_view word) const {
-    const auto* node = find(key);
-    return node && node->text == word;
-  }
-
- private:
-  const ConfigNode* table_;
-};
 
 DomainSpec build_domain(const ConfigNode& root) {
   const TableReader table(root, "domain");
@@ -97,7 +64,8 @@ std::vector<double> given_factors(const ConfigNode& list, Problems& problems) {
   return factors;
 }
 
-std::vector<double> build_loading(const ConfigNode& root, Problems& problems) {
+/// In critical mode the load factor is found, and no steps are there.
+std::vector<double> build_load_factors(const ConfigNode& root, Problems& problems) {
   const TableReader table(root, "loading");
   if (const auto* factors = table.find("factors")) return given_factors(*factors, problems);
   int steps = 1;
@@ -142,10 +110,13 @@ CaseSpec build_case(const ConfigNode& root, std::vector<Problem>& problems) {
   spec.domain = build_domain(root);
   spec.material = build_material(root);
   TableReader(root, "enrichment").read("tip_radius", spec.tip_radius);
-  spec.load_factors = build_loading(root, problems);
+  spec.load_factors = build_load_factors(root, problems);
+  spec.loading = build_loading(root, problems);
+  spec.growth = build_growth(root, spec, problems);
   spec.solver = build_solver(root, problems);
   spec.output = build_output(root);
   spec.cracks = build_cracks(root, spec.domain, problems);
+  add_random_cracks(root, spec, problems);
   if (const auto* force = TableReader(root, "domain").find("body_force")) {
     const LoadReader loads(spec, places_in(spec.domain), problems);
     spec.domain.body_force = loads.load_pair(*force, "domain.body_force");

@@ -15,6 +15,10 @@ namespace cdca {
 std::vector<CrackSpec> build_cracks(const ConfigNode& root, const DomainSpec& domain,
                                     std::vector<Problem>& problems);
 
+/// Appends the cracks of [crack_field], named "random1", "random2", ...; none where the table is
+/// absent or wrong.
+void add_random_cracks(const ConfigNode& root, CaseSpec& spec, std::vector<Problem>& problems);
+
 /// Reports cracks that leave the body, have segments of no length, turn back, cross themselves, run
 /// along a side, or lie on each other. Whether the grid can hold them, the model finds out.
 /// `blocks` are where the cracks were written.

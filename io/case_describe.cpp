@@ -72,14 +72,30 @@ std::string boundary_text(const BoundarySpec& boundary) {
 
 std::string loads_text(const CaseSpec& spec) {
   const auto& factors = spec.load_factors;
-  std::string out = line(
-      "loads", factors.size() == 1 ? fmt::format("1 step, load factor {:.6g}", factors.front())
-                                   : fmt::format("{} steps, load factor {:.6g} to {:.6g}",
-                                                 factors.size(), factors.front(), factors.back()));
+  const auto steps = factors.size() == 1
+                         ? fmt::format("1 step, load factor {:.6g}", factors.front())
+                         : fmt::format("{} steps, load factor {:.6g} to {:.6g}", factors.size(),
+                                       factors.front(), factors.back());
+  const auto critical =
+      fmt::format("critical: at most {} growth events, ends below {:.6g} of the largest factor",
+                  spec.loading.max_events, spec.loading.min_factor);
+  std::string out = line("loads", spec.loading.critical ? critical : steps);
   for (const auto& boundary : spec.boundaries) out += line("", boundary_text(boundary));
   const auto body_force = vector_text("body force", spec.domain.body_force, "0", "N/m^3");
   if (!body_force.empty()) out += line("", body_force.substr(2));
   return out;
+}
+
+std::string growth_text(const GrowthSpec& growth) {
+  if (growth.criterion == Criterion::none) return line("growth", "none");
+  const auto [low, high] = growth.step_length;
+  const auto length =
+      low == high ? fmt::format("{:.6g}", low) : fmt::format("{:.6g} to {:.6g}", low, high);
+  return line("growth", fmt::format("{}, {} steps of {} {}, {} directions",
+                                    growth.criterion == Criterion::hoop ? "hoop" : "mixed",
+                                    growth.fixed_step ? "fixed" : "arrest", length,
+                                    growth.step_in_metres ? "m" : "element sides",
+                                    growth.corrected ? "corrected" : "explicit"));
 }
 
 }  // namespace
@@ -105,7 +121,7 @@ std::string describe_case(const CaseSpec& spec, const CaseSize& size) {
          cracks_text(spec, size.tips) +
          line("tip radius", spec.tip_radius > 0.0 ? fmt::format("{:.6g} m", spec.tip_radius)
                                                   : "the nodes of the tip element") +
-         loads_text(spec) +
+         loads_text(spec) + growth_text(spec.growth) +
          line("solver", fmt::format("{}, tolerance {:.3g}", is_krylov ? "krylov" : "relaxation",
                                     spec.solver.tolerance)) +
          line("size", fmt::format("{} elements, {} nodes, {} unknowns", size.elements, size.nodes,

@@ -19,6 +19,16 @@ bool is_zero(const ConfigNode& value) {
 
 }  // namespace
 
+void LoadReader::check_factor(const LoadValue& load, const ConfigNode& value,
+                              const std::string& path) const {
+  if (!spec_.loading.critical || load.proportional) return;
+  problems_.push_back(problem_at(
+      value, path,
+      fmt::format("Found {}, which is not proportional to the load factor; with loading.mode "
+                  "\"critical\" allowed is a number, or s times an expression in x and y.",
+                  describe(value))));
+}
+
 std::optional<LoadValue> LoadReader::read(const ConfigNode& value, const std::string& path) const {
   if (value.is_number()) {
     auto load = proportional_load(value.number);
@@ -30,6 +40,7 @@ std::optional<LoadValue> LoadReader::read(const ConfigNode& value, const std::st
     for (const double s : {spec_.load_factors.front(), spec_.load_factors.back()}) {
       for (const auto& at : places_) load.at(at.x(), at.y(), s);
     }
+    check_factor(load, value, path);
     return load;
   } catch (const InputError& error) {
     problems_.push_back(problem_at(value, path, error.what()));

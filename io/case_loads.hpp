@@ -12,7 +12,7 @@
 namespace cdca {
 
 /// Reads the loads of one place of the body. `places` are points where they act; expressions must
-/// be finite there at the load factors of `spec`.
+/// be finite there at the load factors of `spec`, and proportional to it in critical mode.
 class LoadReader {
  public:
   LoadReader(const CaseSpec& spec, std::vector<Vec2> places, std::vector<Problem>& problems)
@@ -26,6 +26,7 @@ class LoadReader {
   LoadVector support_pair(const ConfigNode& value, const std::string& path) const;
 
  private:
+  void check_factor(const LoadValue& load, const ConfigNode& value, const std::string& path) const;
   std::optional<LoadValue> read(const ConfigNode& value, const std::string& path) const;
 
   const CaseSpec& spec_;

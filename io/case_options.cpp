@@ -27,6 +27,7 @@ std::string value_text(const Option& option) {
     case OptionKind::boolean: return "true or false";
     case OptionKind::integer: return "a whole number";
     case OptionKind::number: return "a number" + unit;
+    case OptionKind::automatic: return "\"auto\" or a number" + unit;
     case OptionKind::load: return "a number" + unit + " or an expression in x, y and s";
     case OptionKind::support:
       return "\"free\", a number" + unit + " or an expression in x, y and s";
@@ -91,6 +92,9 @@ std::string allowed_text(const Option& option) {
     case OptionShape::list: return "a list of one or more values, each " + value;
     case OptionShape::points:
       return "a list of two or more points [x, y], each coordinate " + value;
+    case OptionShape::limits: return "a pair [low, high], each " + value;
+    case OptionShape::single_or_limits: return value + ", or a pair [low, high] of such numbers";
+    case OptionShape::box: return "a list [x0, y0, x1, y1] with x0 < x1 and y0 < y1, each " + value;
   }
   return value;
 }

@@ -17,15 +17,19 @@ enum class OptionKind {
   boolean,
   integer,
   number,
-  load,     ///< a number, or an expression in x, y and s
-  support,  ///< a load, or "free"
+  automatic,  ///< a number, or "auto"
+  load,       ///< a number, or an expression in x, y and s
+  support,    ///< a load, or "free"
 };
 
 enum class OptionShape {
   single,
-  pair,    ///< [x, y]
-  list,    ///< at least one value
-  points,  ///< at least two pairs
+  pair,              ///< [x, y]
+  list,              ///< at least one value
+  points,            ///< at least two pairs
+  limits,            ///< [low, high]
+  single_or_limits,  ///< one value, or [low, high]
+  box,               ///< [x0, y0, x1, y1], lower left and upper right corner
 };
 
 /// Allowed values of a number, with or without the ends.
@@ -57,6 +61,8 @@ struct Option {
   std::string_view standard = {};  ///< default, as TOML; empty: none
   std::string_view excludes =
       {};  ///< keys of the same section, separated by '|', that this one replaces
+  /// No default where another key of the section says a word: "mode=critical".
+  std::string_view no_standard_if = {};
   std::string_view text = {};  ///< what it means
 
   /// As in messages: "material.young".
@@ -67,6 +73,7 @@ struct OptionSection {
   std::string_view name;
   bool repeated = false;  ///< blocks [[name]]
   bool later = false;     ///< for later versions altogether
+  bool optional = false;  ///< a table that means something by being there; not filled in
   std::string_view text = {};
 };
 

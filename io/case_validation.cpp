@@ -134,8 +134,15 @@ class BlockCheck {
     const auto others = words_of(option.excludes);
     const bool replaced =
         std::any_of(others.begin(), others.end(), [&](const auto& key) { return was_given(key); });
-    if (option.standard.empty() || replaced) return;
+    if (option.standard.empty() || replaced || goes_without(option)) return;
     block_.set(option.key, parse_toml_value(option.standard).value()).line = block_.line;
+  }
+
+  bool goes_without(const Option& option) const {
+    const auto equals = option.no_standard_if.find('=');
+    if (equals == std::string_view::npos) return false;
+    const auto* node = block_.find(option.no_standard_if.substr(0, equals));
+    return node && node->text == option.no_standard_if.substr(equals + 1);
   }
 
   bool was_given(std::string_view key) const {
@@ -171,12 +178,14 @@ void check_blocks(ConfigNode& root, const OptionSection& section, Problems& prob
 
 void check_table(ConfigNode& root, const OptionSection& section, Problems& problems) {
   ConfigNode* table = root.find(section.name);
+  if (!table && section.optional) return;
   if (!table) table = &root.set(section.name, ConfigNode{});
   if (table->kind != ConfigKind::table) {
     problems.push_back(problem_at(
         *table, std::string(section.name),
         fmt::format("Found {}; allowed is one table [{}].", describe(*table), section.name)));
     // Its required keys are not missing on top of that.
+    if (section.optional) return root.erase(section.name);
     *table = ConfigNode{};
     return;
   }

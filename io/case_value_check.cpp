@@ -49,6 +49,8 @@ bool has_type(const Option& option, const ConfigNode& value) {
     case OptionKind::boolean: return value.kind == ConfigKind::boolean;
     case OptionKind::integer: return value.kind == ConfigKind::integer;
     case OptionKind::number: return value.is_number();
+    case OptionKind::automatic:
+      return value.is_number() || (value.kind == ConfigKind::text && value.text == "auto");
     case OptionKind::load:
     case OptionKind::support:
       return value.is_number() || (value.kind == ConfigKind::text && !value.text.empty());
@@ -88,6 +90,25 @@ void check_entries(const Option& option, const ConfigNode& value, const std::str
   }
 }
 
+/// A list of values whose first half are the lower limits of the second half.
+void check_limits(const Option& option, const ConfigNode& value, const std::string& path,
+                  Problems& problems) {
+  const bool is_box = option.shape == OptionShape::box;
+  const std::size_t half = is_box ? 2 : 1;
+  if (!is_list(option, value, 2 * half, 2 * half, path, problems)) return;
+  const auto before = problems.size();
+  check_entries(option, value, path, problems);
+  for (std::size_t i = 0; i < half && problems.size() == before; ++i) {
+    const double low = value.items[i].number;
+    const double high = value.items[i + half].number;
+    if (is_box ? low < high : low <= high) continue;
+    problems.push_back(problem_at(
+        value, path,
+        fmt::format("Found {}; allowed are {}.", toml_value(value),
+                    is_box ? "x0 < x1 and y0 < y1" : "limits [low, high] with low at most high")));
+  }
+}
+
 void check_shape(const Option& option, const ConfigNode& value, const std::string& path,
                  Problems& problems) {
   constexpr auto any = static_cast<std::size_t>(-1);
@@ -109,6 +130,12 @@ void check_shape(const Option& option, const ConfigNode& value, const std::strin
           check_entries(option, value.items[i], place, problems);
         }
       }
+      return;
+    case OptionShape::single_or_limits:
+      if (value.kind != ConfigKind::list) return check_single(option, value, path, problems);
+      return check_limits(option, value, path, problems);
+    case OptionShape::limits:
+    case OptionShape::box: return check_limits(option, value, path, problems);
   }
 }
 

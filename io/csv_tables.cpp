@@ -47,6 +47,8 @@ std::vector<TableCell> history_row(const std::vector<std::string>& reaction_name
   row.push_back({"growth_cycles", record.growth_cycles});
   row.push_back({"solver_iterations", record.solver_iterations});
   row.push_back({"wall_s", record.wall_s});
+  row.push_back({"external_work", record.external_work});
+  row.push_back({"dissipated", record.dissipated});
   return row;
 }
 

@@ -102,6 +102,7 @@ TEST(Growth, MirroredCracksGrowMirrored) {
 
 TEST(Growth, TipsReachTheRimAndSeparateThePlate) {
   CaseSpec spec = slanted(0.0, 31);
+  spec.solver.tolerance = 1e-8;  // the last ligament lets the halves turn: rounding allows no more
   spec.loading.max_events = 40;
   const Summary s = run(spec);
   EXPECT_EQ(s.status, "separated");
