@@ -108,7 +108,7 @@ TEST_P(Patch, RigidMotion) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, Patch, ::testing::ValuesIn(layouts),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 /// Says which part of the plate a place on the rim belongs to.
 using PartOf = std::function<int(const Vec2&)>;
@@ -180,7 +180,7 @@ const std::vector<CutPlate> cut_through{
 };
 
 INSTANTIATE_TEST_SUITE_P(Plates, LooseParts, ::testing::ValuesIn(cut_through),
-                         [](const auto& info) { return std::string(info.param.layout.name); });
+                         [](const auto& test) { return std::string(test.param.layout.name); });
 
 }  // namespace
 }  // namespace cdca::testing
