@@ -105,6 +105,8 @@ TEST(Growth, TipsReachTheRimAndSeparateThePlate) {
   spec.solver.tolerance = 1e-8;  // the last ligament lets the halves turn: rounding allows no more
   spec.loading.max_events = 40;
   spec.loading.min_factor = 1e-6;  // to the very end
+  // a side counts as loaded even where its traction is zero: only top and bottom shall
+  spec.boundaries.erase(spec.boundaries.begin(), spec.boundaries.begin() + 2);
   const Summary s = run(spec);
   EXPECT_EQ(s.status, "separated");
   for (const TipRecord& tip : s.tips) EXPECT_EQ(tip.state, "boundary");
