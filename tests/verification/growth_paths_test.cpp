@@ -18,7 +18,7 @@ Json reference_paths() {
   return Json::parse(file).at("paths");
 }
 
-/// A plate in tension whose cracks grow at the load factor that their toughness needs.
+/// A plate under a tension at which all tips grow all the time, as those of the reference do.
 struct GrowthCase {
   CaseSpec spec;
   std::vector<std::vector<Vec2>> reference;
@@ -35,7 +35,7 @@ void load_in_tension(CaseSpec& spec) {
   roller.displacement[1] = proportional_load(0);
   spec.boundaries = {top, bottom, pin, roller};
   spec.solver.tolerance = 1e-8;
-  spec.loading.critical = true;
+  spec.load_factors = {3.0};
   spec.material.toughness = 1.0;
   spec.growth.criterion = Criterion::hoop;
 }
@@ -68,7 +68,7 @@ GrowthCase growth_case(const std::string& id, const Json& entry) {
   c.spec.growth.fixed_step = c.spec.growth.step_in_metres = true;
   const double step = c.spec.domain.size.x() / 50;
   c.spec.growth.step_length = {step, step};
-  c.spec.loading.max_events = 45;
+  c.spec.growth.cycles = 32;
   return c;
 }
 
@@ -92,7 +92,7 @@ TEST_P(SlowGrowthPaths, FollowTheReference) {
       farthest = std::max(farthest, distance_to(run.cracks[k].points, x));
   }
   std::cout << GetParam() << ": largest distance " << farthest << ", tolerance " << c.tolerance
-            << ", " << run.steps.size() << " events, " << run.status << "\n";
+            << ", " << run.steps.back().growth_cycles << " cycles, " << run.status << "\n";
   EXPECT_LE(farthest, c.tolerance);
   double dissipated = 0.0;
   for (const StepRecord& step : run.steps) {
