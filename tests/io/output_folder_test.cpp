@@ -220,7 +220,7 @@ TEST(OutputTextFile, ReplacesAndAppends) {
 }
 
 TEST(OutputTextFile, NoticesAFullDisk) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  ASSERT_TRUE(std::filesystem::exists("/dev/full"));  // Linux always has it
   EXPECT_THROW(append_text("/dev/full", "x"), IoError);
 }
 
