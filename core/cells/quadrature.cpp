@@ -99,7 +99,78 @@ double farthest(const Triangle& t, const Vec2& p) {
   return std::max({(t[0] - p).norm(), (t[1] - p).norm(), (t[2] - p).norm()});
 }
 
-/// Size to which triangles are halved across a kink of the functions, in element sizes.
+/// Does a circle on which the functions have a kink run through the triangle?
+bool bends_in(const Triangle& t, const SingularPlace& tip) {
+  const double near = distance(t, tip.at), far = farthest(t, tip.at);
+  return std::any_of(tip.bends.begin(), tip.bends.end(),
+                     [&](double r) { return near < r && r < far; });
+}
+
+/// Adds the angles, seen from the tip along `axis`, at which the side from a to b meets a circle.
+void add_crossings(const Vec2& a, const Vec2& b, double radius, const Vec2& axis,
+                   std::vector<double>& angles) {
+  // |a + s (b - a)| = radius
+  const Vec2 d = b - a;
+  const double half = a.dot(d) / d.squaredNorm();
+  const double root = half * half - (a.squaredNorm() - radius * radius) / d.squaredNorm();
+  if (root <= 0) return;
+  for (const double s : {-half - std::sqrt(root), -half + std::sqrt(root)}) {
+    if (s <= 0 || s >= 1) continue;
+    const Vec2 p = a + s * d;
+    angles.push_back(std::atan2(cross(axis, p), axis.dot(p)));
+  }
+}
+
+/// Where a ray from the tip, which lies outside, enters and leaves a triangle given relative to it.
+std::pair<double, double> within(const Triangle& t, const Vec2& ray) {
+  double in = 1e300, out = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 &a = t[k], &b = t[(k + 1) % 3];
+    const double at_a = cross(ray, a), at_b = cross(ray, b);
+    if ((at_a > 0) == (at_b > 0)) continue;
+    const double r = ray.dot(a + at_a / (at_a - at_b) * (b - a));
+    in = std::min(in, r);
+    out = std::max(out, r);
+  }
+  return {in, out};
+}
+
+/// Points on rays from a tip outside the triangle, so that no stretch between two points crosses a
+/// circle on which the functions have a kink.
+void add_polar(const Triangle& triangle, const SingularPlace& tip,
+               std::vector<QuadraturePoint>& points) {
+  const Triangle t{triangle[0] - tip.at, triangle[1] - tip.at, triangle[2] - tip.at};
+  const Vec2 axis = (t[0] + t[1] + t[2]).normalized(), across = turned_left(axis);
+  std::vector<double> angles;
+  for (std::size_t k = 0; k < 3; ++k) {
+    angles.push_back(std::atan2(cross(axis, t[k]), axis.dot(t[k])));
+    for (const double r : tip.bends) add_crossings(t[k], t[(k + 1) % 3], r, axis, angles);
+  }
+  std::sort(angles.begin(), angles.end());
+  for (std::size_t k = 0; k + 1 < angles.size(); ++k) {
+    const double width = angles[k + 1] - angles[k];
+    if (width <= 1e-12) continue;
+    for (const GaussPoint& v : gauss_points(8)) {
+      const double angle = angles[k] + v.x * width;
+      const Vec2 ray = std::cos(angle) * axis + std::sin(angle) * across;
+      const auto [in, out] = within(t, ray);
+      std::vector<double> stops{in};
+      for (const double r : tip.bends) {
+        if (r > in && r < out) stops.push_back(r);
+      }
+      stops.push_back(out);
+      for (std::size_t l = 0; l + 1 < stops.size(); ++l) {
+        const double length = stops[l + 1] - stops[l];
+        for (const GaussPoint& u : gauss_points(6)) {
+          const double r = stops[l] + u.x * length;
+          points.push_back({tip.at + r * ray, r * length * u.weight * width * v.weight});
+        }
+      }
+    }
+  }
+}
+
+/// Where circles of several tips cross, triangles are halved to this part of the element.
 constexpr double across_bends = 1.0 / 16;
 
 std::pair<std::size_t, const SingularPlace*> tip_at_corner(const Triangle& t,
@@ -131,16 +202,20 @@ void add_graded(const Triangle& t, const std::vector<SingularPlace>& tips, int d
   }
   const double size = longest_side(t);
   double gap = 1e300;
-  bool bent = false;
+  const SingularPlace* bent = nullptr;
+  bool bent_twice = false;
   for (const SingularPlace& tip : tips) {
-    const double near = distance(t, tip.at);
-    gap = std::min(gap, near);
-    if (tip.bends.empty()) continue;
-    const double far = farthest(t, tip.at);
-    for (const double r : tip.bends) bent = bent || (near < r && r < far);
+    gap = std::min(gap, distance(t, tip.at));
+    if (!bends_in(t, tip)) continue;
+    bent_twice = bent != nullptr;
+    bent = &tip;
   }
-  if (depth == 0 || (gap >= size && !(bent && size > across_bends))) {
-    add_folded(t, bent ? 4 : order_for(size, gap), points);
+  if (depth == 0 || (gap >= size && !(bent_twice && size > across_bends))) {
+    if (bent && !bent_twice && gap > 0) {
+      add_polar(t, *bent, points);
+    } else {
+      add_folded(t, order_for(size, gap), points);
+    }
     return;
   }
   std::size_t k = 0;

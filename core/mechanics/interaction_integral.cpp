@@ -3,6 +3,7 @@
 
 #include "core/cells/quadrature.hpp"
 #include "core/mechanics/side_walk.hpp"
+#include "core/mesh/shape_functions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +13,46 @@ namespace cdca {
 
 namespace {
 
-/// The weight q of the domain and its slope.
-struct Plateau {
-  double radius;
-  double value(double r) const {
-    const double x = std::clamp(2 * r / radius - 1, 0.0, 1.0);
+/// The weight q of the domain, interpolated between its values at the nodes: inside every element
+/// it is as smooth as the field itself, so that few points integrate it.
+class DomainWeight {
+ public:
+  DomainWeight(const StructuredGrid& grid, GridIndex element, const Vec2& tip, double radius)
+      : size_(grid.element_size()) {
+    const auto corners = grid.corners(element);
+    for (std::size_t a = 0; a < 4; ++a) {
+      at_corner_[a] = plateau((grid.node_position(corners[a]) - tip).norm() / radius);
+    }
+  }
+  bool nothing() const { return all(0.0); }
+  bool flat() const { return all(at_corner_[0]); }
+  /// p: inside the element, [0, 1].
+  double value(const Vec2& p) const {
+    const ShapeValues n = shape_functions(p, size_);
+    double q = 0.0;
+    for (std::size_t a = 0; a < 4; ++a) q += n.value[a] * at_corner_[a];
+    return q;
+  }
+  /// 1/m, in global axes.
+  Vec2 gradient(const Vec2& p) const {
+    const ShapeValues n = shape_functions(p, size_);
+    Vec2 g(0, 0);
+    for (std::size_t a = 0; a < 4; ++a) g += n.gradient[a] * at_corner_[a];
+    return g;
+  }
+
+ private:
+  /// 1 up to half the radius, smoothly down to 0 at the radius.
+  static double plateau(double share) {
+    const double x = std::clamp(2 * share - 1, 0.0, 1.0);
     return 1 - x * x * x * (10 - 15 * x + 6 * x * x);
   }
-  double slope(double r) const {
-    const double x = std::clamp(2 * r / radius - 1, 0.0, 1.0);
-    return -30 * x * x * (1 - x) * (1 - x) * 2 / radius;
+  bool all(double q) const {
+    return std::all_of(at_corner_.begin(), at_corner_.end(), [q](double at) { return at == q; });
   }
+
+  Vec2 size_;
+  std::array<double, 4> at_corner_{};
 };
 
 double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
@@ -65,7 +95,7 @@ class TipIntegral {
  public:
   TipIntegral(const BasisContext& c, const TipZone& zone, const Material& material,
               const ExternalLoads& loads, std::span<const double> state, double radius)
-      : c_(c), zone_(zone), material_(material), loads_(loads), state_(state), q_{radius} {
+      : c_(c), zone_(zone), material_(material), loads_(loads), state_(state), radius_(radius) {
     axes_.row(0) = zone.frame.tangent();
     axes_.row(1) = turned_left(zone.frame.tangent());
   }
@@ -73,19 +103,21 @@ class TipIntegral {
   /// Adds the share of this rank: m[0] for mode I, m[1] for mode II.
   void add(double m[2]) {
     const StructuredGrid& grid = c_.mesh.grid();
-    const Vec2 reach = q_.radius * grid.element_size().cwiseInverse();
+    const Vec2 reach = radius_ * grid.element_size().cwiseInverse() + Vec2(1, 1);
     const Vec2 centre = grid.to_grid(zone_.frame.tip());
     const GridIndex low = grid.element_at(centre - reach), high = grid.element_at(centre + reach);
     for (int j = low.j; j <= high.j; ++j) {
       for (int i = low.i; i <= high.i; ++i) {
         const GridIndex e{i, j};
         if (!c_.mesh.evaluates(e) || c_.mesh.find_element(e) < 0) continue;
-        for (int part = 0; part < c_.cuts.parts(e); ++part) add_part(e, part, m);
+        const DomainWeight q(grid, e, zone_.frame.tip(), radius_);
+        if (q.nothing()) continue;
+        for (int part = 0; part < c_.cuts.parts(e); ++part) add_part(e, part, q, m);
         for (const CrackFace& face : c_.cuts.faces_at(e)) {
-          if (face.plus_element == e) add_face(face, true, m);
-          if (face.minus_element == e) add_face(face, false, m);
+          if (face.plus_element == e) add_face(face, true, q, m);
+          if (face.minus_element == e) add_face(face, false, q, m);
         }
-        add_rim(e, m);
+        add_rim(e, q, m);
       }
     }
   }
@@ -97,7 +129,9 @@ class TipIntegral {
     return {tensor(material_.stress(g)), g};
   }
 
-  void add_part(GridIndex e, int part, double m[2]) {
+  void add_part(GridIndex e, int part, const DomainWeight& q, double m[2]) {
+    const bool flat = q.flat();
+    if (flat && !loads_.body) return;
     const StructuredGrid& grid = c_.mesh.grid();
     const PartBasis basis(c_, e, part);
     const CutElement* cut = c_.cuts.find(e);
@@ -109,18 +143,15 @@ class TipIntegral {
                             : smooth_quadrature(cut, part, 6);
     for (const QuadraturePoint& point : points) {
       const Vec2 x = grid.from_grid(Vec2(e.i, e.j) + point.at);
-      const Vec2 d = zone_.frame.local(x);
-      const double r = d.norm(), w = point.weight * grid.element_size().prod();
-      if (r >= q_.radius || r == 0.0) continue;
-      const Vec2 dq = q_.slope(r) / r * d;
-      const bool flat = dq.isZero(0.0);
-      if (flat && !loads_.body) continue;
+      const double r = zone_.frame.local(x).norm(), w = point.weight * grid.element_size().prod();
+      if (r == 0.0) continue;
+      const Vec2 dq = axes_ * q.gradient(point.at);
       const ActualField field = flat ? ActualField{} : actual(basis, point.at);
       for (int mode = 0; mode < 2; ++mode) {
         const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
         if (!flat) m[mode] += w * flux(field, aux).dot(dq);
         if (loads_.body) {
-          m[mode] -= w * q_.value(r) * Vec2(axes_ * loads_.body(x)).dot(aux.gradient.col(0));
+          m[mode] -= w * q.value(point.at) * Vec2(axes_ * loads_.body(x)).dot(aux.gradient.col(0));
         }
       }
     }
@@ -153,7 +184,7 @@ class TipIntegral {
     return true;
   }
 
-  void add_face(const CrackFace& face, bool plus, double m[2]) {
+  void add_face(const CrackFace& face, bool plus, const DomainWeight& q, double m[2]) {
     const bool straight = on_straight_part(face);
     const FaceLoad* load = nullptr;
     for (const FaceLoad& l : loads_.faces) {
@@ -177,11 +208,11 @@ class TipIntegral {
     for (const auto& point : line_quadrature(face.from - corner, face.to - corner, places)) {
       const Vec2 x = grid.from_grid(corner + point.at);
       const double r = zone_.frame.local(x).norm();
-      if (r >= q_.radius || r == 0.0) continue;
+      if (r == 0.0) continue;
       const Vec2 t = load ? Vec2(sign * axes_ * load->on_plus(x, n)) : Vec2(0, 0);
       const Vec2 inside = point.at + shift;
       const ActualField field = straight ? ActualField{} : actual(basis, point.at, &inside);
-      const double w = point.weight * along.norm() * q_.value(r);
+      const double w = point.weight * along.norm() * q.value(point.at);
       for (int mode = 0; mode < 2; ++mode) {
         const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x, side));
         m[mode] -= w * (straight ? t.dot(aux.gradient.col(0))
@@ -190,17 +221,18 @@ class TipIntegral {
     }
   }
 
-  void add_rim(GridIndex e, double m[2]) {
+  void add_rim(GridIndex e, const DomainWeight& q, double m[2]) {
     const StructuredGrid& grid = c_.mesh.grid();
     const bool at[4] = {e.i == 0, e.i == grid.nx() - 1, e.j == 0, e.j == grid.ny() - 1};
     const Side sides[4] = {Side::left, Side::right, Side::bottom, Side::top};
     const Vec2 outward[4] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (std::size_t k = 0; k < 4; ++k) {
-      if (at[k]) add_rim_side(e, sides[k], outward[k], m);
+      if (at[k]) add_rim_side(e, sides[k], outward[k], q, m);
     }
   }
 
-  void add_rim_side(GridIndex e, Side side, const Vec2& outward, double m[2]) {
+  void add_rim_side(GridIndex e, Side side, const Vec2& outward, const DomainWeight& q,
+                    double m[2]) {
     const StructuredGrid& grid = c_.mesh.grid();
     const SideGeometry geometry = geometry_of(side);
     const Vec2 corner(e.i, e.j), normal = axes_ * outward;
@@ -211,13 +243,13 @@ class TipIntegral {
       for (const QuadraturePoint& point : line_quadrature(from, to, basis.tip_places())) {
         const Vec2 x = grid.from_grid(corner + point.at);
         const double r = zone_.frame.local(x).norm();
-        if (r >= q_.radius || r == 0.0) continue;
+        if (r == 0.0) continue;
         const ActualField field = actual(basis, point.at);
         const Vec2 t = loads_.held_sides[std::size_t(side)] ? Vec2(field.stress * normal)
                                                             : traction_on(side, x);
         for (int mode = 0; mode < 2; ++mode) {
           const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
-          m[mode] -= point.weight * length * q_.value(r) * flux_out(field, aux, normal, t);
+          m[mode] -= point.weight * length * q.value(point.at) * flux_out(field, aux, normal, t);
         }
       }
     }
@@ -236,7 +268,7 @@ class TipIntegral {
   const Material& material_;
   const ExternalLoads& loads_;
   std::span<const double> state_;
-  Plateau q_;
+  double radius_;
   Eigen::Matrix2d axes_;
   std::vector<BasisFunction> functions_;
 };

@@ -31,7 +31,7 @@ struct DomainReach {
 /// Of every active tip, in the order of the zones; the same on all ranks. Collective.
 ///
 /// With P_j = s_ij u'_i,1 + s'_ij u_i,1 - s_ik e'_ik d_1j, the primed near-tip field of one mode,
-/// and q falling smoothly from 1 to 0 between half the radius and the radius,
+/// and q falling from 1 to 0 between half the radius and the radius, bilinear in every element,
 ///
 ///     M = int P_j q,_j dA - int b_i u'_i,1 q dA - int P_j m_j q ds,   K = E' M / 2.
 ///
