@@ -76,20 +76,19 @@ std::vector<double> build_load_factors(const ConfigNode& root, Problems& problem
 SolverSpec build_solver(const ConfigNode& root, Problems& problems) {
   const TableReader table(root, "solver");
   SolverSpec solver;
-  solver.method =
-      table.says("method", "relaxation") ? SolverMethod::relaxation : SolverMethod::krylov;
+  if (table.says("method", "relaxation")) solver.method = SolverMethod::relaxation;
+  if (table.says("method", "krylov")) solver.method = SolverMethod::krylov;
   table.read("tolerance", solver.tolerance);
   table.read("over_relaxation", solver.over_relaxation);
   table.read("max_iterations", solver.max_iterations);
-  const bool is_lost = table.says("method", "krylov") && solver.over_relaxation != 1.0;
+  const bool is_lost = solver.method != SolverMethod::relaxation && solver.over_relaxation != 1.0;
   if (is_lost) {
     const auto& node = *table.find("over_relaxation");
-    problems.push_back(problem_at(
-        node, "solver.over_relaxation",
-        fmt::format(
-            "Found {}, but the method \"krylov\" has no over-relaxation; allowed is 1.0, or the "
-            "method \"relaxation\".",
-            describe(node))));
+    problems.push_back(problem_at(node, "solver.over_relaxation",
+                                  fmt::format("Found {}, but only the method \"relaxation\" has an "
+                                              "over-relaxation; allowed is 1.0, or "
+                                              "that method.",
+                                              describe(node))));
   }
   return solver;
 }

@@ -116,14 +116,15 @@ std::string bytes_text(std::int64_t bytes) {
 }
 
 std::string describe_case(const CaseSpec& spec, const CaseSize& size) {
-  const bool is_krylov = spec.solver.method == SolverMethod::krylov;
+  constexpr std::string_view methods[] = {"relaxation", "krylov", "multilevel"};
   return line("title", spec.title) + domain_text(spec.domain) + material_text(spec.material) +
          cracks_text(spec, size.tips) +
          line("tip radius", spec.tip_radius > 0.0 ? fmt::format("{:.6g} m", spec.tip_radius)
                                                   : "the nodes of the tip element") +
          loads_text(spec) + growth_text(spec.growth) +
-         line("solver", fmt::format("{}, tolerance {:.3g}", is_krylov ? "krylov" : "relaxation",
-                                    spec.solver.tolerance)) +
+         line("solver",
+              fmt::format("{}, tolerance {:.3g}", methods[std::size_t(spec.solver.method)],
+                          spec.solver.tolerance)) +
          line("size", fmt::format("{} elements, {} nodes, {} unknowns", size.elements, size.nodes,
                                   size.unknowns)) +
          line("memory", fmt::format("about {}", bytes_text(size.bytes)));

@@ -347,11 +347,11 @@ constexpr Option option_table[] = {
     {.section = "solver",
      .key = "method",
      .kind = choice,
-     .choices = "krylov|relaxation",
-     .later = "multilevel",
-     .standard = "\"krylov\"",
-     .text = "\"krylov\": conjugate gradients with the rule as preconditioner. \"relaxation\": the "
-             "rule alone; slow."},
+     .choices = "multilevel|krylov|relaxation",
+     .standard = "\"multilevel\"",
+     .text = "\"multilevel\": conjugate gradients with the rule on all scales as preconditioner. "
+             "\"krylov\": with the rule on the grid alone; slower. \"relaxation\": the rule of the "
+             "paper alone; much slower."},
     {.section = "solver",
      .key = "tolerance",
      .range = {.low = 1e-14, .high = 0.1},

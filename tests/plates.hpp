@@ -107,7 +107,7 @@ struct Solved {
 inline Solved solved(const CaseSpec& spec) {
   Solved s;
   s.model = built(spec);
-  s.equilibrium = find_equilibrium(*s.model, *make_solver(spec.solver), 1.0);
+  s.equilibrium = find_equilibrium(*s.model, *make_solver(*s.model), 1.0);
   return s;
 }
 

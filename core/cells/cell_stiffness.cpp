@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <map>
 
@@ -10,20 +12,45 @@ namespace {
 
 /// A cell is regular when its support is whole, untouched by cracks and material of this rank, and
 /// none of its neighbours has more than its two plain unknowns; and no support holds it.
-bool is_regular(const BasisContext& context, const std::vector<char>& held, LocalId node) {
-  const GridIndex at = context.mesh.node(node);
-  const auto unknown = std::size_t(context.unknowns.of_piece(node, 0));
-  if (held[unknown] || held[unknown + 1]) return false;
-  for (const GridIndex e : context.mesh.grid().elements_round(at)) {
-    if (!context.mesh.grid().has_element(e) || context.cuts.touched(e)) return false;
+std::vector<char> find_regular_cells(const LocalMesh& mesh, const CellUnknowns& unknowns,
+                                     const std::vector<GlobalId>& special,
+                                     const std::vector<char>& held) {
+  const StructuredGrid& grid = mesh.grid();
+  std::vector<char> regular(std::size_t(mesh.node_count()), 0);
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
+    const GridIndex at = mesh.node(n);
+    const bool inside = at.i > 0 && at.j > 0 && at.i < grid.nx() && at.j < grid.ny();
+    const auto unknown = std::size_t(unknowns.of_piece(n, 0));
+    regular[std::size_t(n)] = inside && !held[unknown] && !held[unknown + 1];
   }
-  for (int dj = -1; dj <= 1; ++dj) {
-    for (int di = -1; di <= 1; ++di) {
-      const LocalId neighbour = context.mesh.find_node({at.i + di, at.j + dj});
-      if (!context.mesh.owns(neighbour) || context.unknowns.special(neighbour)) return false;
+  for (LocalId ghost = mesh.owned_nodes(); ghost < mesh.node_count(); ++ghost) {
+    const GridIndex at = mesh.node(ghost);
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        const LocalId n = mesh.find_node({at.i + di, at.j + dj});
+        if (n >= 0) regular[std::size_t(n)] = 0;
+      }
     }
   }
-  return true;
+  for (const GlobalId id : special) {
+    for (const LocalId n : mesh.element_nodes(grid.element_index(id))) regular[std::size_t(n)] = 0;
+  }
+  return regular;
+}
+
+/// The elements round all cells that are not regular, in order of id.
+std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
+                                              const std::vector<char>& regular) {
+  std::vector<GlobalId> found;
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
+    if (regular[std::size_t(n)]) continue;
+    for (const GridIndex e : mesh.grid().elements_round(mesh.node(n))) {
+      if (mesh.grid().has_element(e)) found.push_back(mesh.grid().element(e));
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 struct Entry {
@@ -32,24 +59,31 @@ struct Entry {
   double value;
 };
 
-StiffnessRows compress(std::vector<Entry>& entries) {
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
+/// Adds up entries of the same place in the order in which they come, so that the sums are bit for
+/// bit the same whatever the numbers of the unknowns.
+StiffnessRows compress(const std::vector<Entry>& entries, LocalId count) {
+  std::vector<std::size_t> end(std::size_t(count) + 1, 0);
+  for (const Entry& e : entries) ++end[std::size_t(e.row) + 1];
+  for (std::size_t r = 1; r < end.size(); ++r) end[r] += end[r - 1];
+  std::vector<std::pair<LocalId, double>> sorted(entries.size());
+  for (const Entry& e : entries) sorted[end[std::size_t(e.row)]++] = {e.column, e.value};
+  // end[r] is now the end of row r, which starts at the end of the row before
   StiffnessRows rows;
-  for (const Entry& e : entries) {
-    const bool new_row = rows.unknown.empty() || rows.unknown.back() != e.row;
-    if (new_row) {
-      rows.unknown.push_back(e.row);
-      rows.start.push_back(rows.start.back());
+  for (LocalId r = 0; r < count; ++r) {
+    const auto first = sorted.begin() + std::ptrdiff_t(r == 0 ? 0 : end[std::size_t(r) - 1]);
+    const auto last = sorted.begin() + std::ptrdiff_t(end[std::size_t(r)]);
+    if (first == last) continue;
+    std::stable_sort(first, last, [](const auto& s, const auto& t) { return s.first < t.first; });
+    rows.unknown.push_back(r);
+    for (auto e = first; e != last; ++e) {
+      if (e != first && rows.column.back() == e->first) {
+        rows.value.back() += e->second;
+      } else {
+        rows.column.push_back(e->first);
+        rows.value.push_back(e->second);
+      }
     }
-    if (!new_row && rows.column.back() == e.column) {
-      rows.value.back() += e.value;
-    } else {
-      rows.column.push_back(e.column);
-      rows.value.push_back(e.value);
-      ++rows.start.back();
-    }
+    rows.start.push_back(rows.column.size());
   }
   return rows;
 }
@@ -61,36 +95,40 @@ std::ptrdiff_t StiffnessRows::find(LocalId u) const {
   return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
 }
 
-CellStiffness::CellStiffness(const BasisContext& context, const ElasticMatrix& elastic,
-                             const std::vector<char>& held, const std::vector<char>& loose,
-                             StiffnessCache& cache, Communicator& communicator)
+CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns,
+                             ElementStiffness& elements, const std::vector<char>& held,
+                             const std::vector<double>& springs,
+                             const std::vector<GlobalId>& own_rows, Sweeps sweeps,
+                             Communicator& communicator)
     : communicator_(communicator),
-      halo_(communicator, context.unknowns.shared(context.mesh)),
-      owned_(context.unknowns.owned()),
-      count_(context.unknowns.count()) {
-  const LocalMesh& mesh = context.mesh;
-  std::vector<char> regular(std::size_t(mesh.node_count()), 0);
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n)
-    regular[std::size_t(n)] = is_regular(context, held, n);
-  regular_ = RegularRuns(mesh, regular, plain_stiffness(mesh.grid().element_size(), elastic));
-  build_rows(context, elastic, regular, cache);
-  if (!loose.empty()) add_springs(loose);
-  build_groups(context, held, regular);
-  order_items();
-  colour_ranks(mesh);
+      halo_(communicator, unknowns.shared(mesh)),
+      owned_(unknowns.owned()),
+      count_(unknowns.count()) {
+  auto regular = find_regular_cells(mesh, unknowns, elements.special(), held);
+  for (const GlobalId id : own_rows) {
+    const LocalId n = mesh.find_node(mesh.grid().node_index(id));
+    if (n >= 0) regular[std::size_t(n)] = 0;
+  }
+  regular_ = RegularRuns(mesh, regular, elements.plain());
+  build_rows(mesh, unknowns, elements, regular);
+  hold_idle_functions(mesh, unknowns);
+  if (!springs.empty()) add_springs(springs);
+  if (sweeps == Sweeps::one_after_the_other) {
+    build_groups(mesh, unknowns, held, regular);
+    order_items();
+    colour_ranks(mesh);
+  }
   for (LocalId u = 0; u < owned_; ++u) {
     if (held[std::size_t(u)]) held_.push_back(u);
   }
 }
 
-void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix& elastic,
-                               const std::vector<char>& regular, StiffnessCache& cache) {
-  const LocalMesh& mesh = context.mesh;
-  const auto plain = plain_stiffness(mesh.grid().element_size(), elastic);
+void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns,
+                               ElementStiffness& elements, const std::vector<char>& regular) {
   std::vector<char> wanted(std::size_t(count_), 0);
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
     if (regular[std::size_t(n)]) continue;
-    for (const LocalId u : context.unknowns.of_cell(n)) wanted[std::size_t(u)] = 1;
+    for (const LocalId u : unknowns.of_cell(n)) wanted[std::size_t(u)] = 1;
   }
   std::vector<Entry> entries;
   const auto add = [&](LocalId row, LocalId column, double value) {
@@ -99,27 +137,23 @@ void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix&
       entries.push_back({row, column, value});
     }
   };
-  for (LocalId e = 0; e < mesh.element_count(); ++e) {
-    const GridIndex element = mesh.element(e);
-    const auto nodes = mesh.element_nodes(element);
-    bool all_regular = true, special = context.cuts.touched(element);
-    for (const LocalId n : nodes) {
-      all_regular = all_regular && regular[std::size_t(n)];
-      special = special || context.unknowns.special(n);
-    }
-    if (all_regular) continue;
-    if (!special) {
+  const auto& special = elements.special();
+  auto next_special = special.begin();
+  for (const GlobalId id : elements_round_own_rows(mesh, regular)) {
+    const GridIndex element = mesh.grid().element_index(id);
+    while (next_special != special.end() && *next_special < id) ++next_special;
+    if (next_special == special.end() || *next_special != id) {
+      const auto nodes = mesh.element_nodes(element);
       for (std::size_t a = 0; a < 8; ++a) {
-        const LocalId row = context.unknowns.of_piece(nodes[a / 2], 0) + LocalId(a % 2);
+        const LocalId row = unknowns.of_piece(nodes[a / 2], 0) + LocalId(a % 2);
         for (std::size_t b = 0; b < 8; ++b) {
-          add(row, context.unknowns.of_piece(nodes[b / 2], 0) + LocalId(b % 2),
-              plain(Eigen::Index(a), Eigen::Index(b)));
+          add(row, unknowns.of_piece(nodes[b / 2], 0) + LocalId(b % 2),
+              elements.plain()(Eigen::Index(a), Eigen::Index(b)));
         }
       }
       continue;
     }
-    for (int part = 0; part < context.cuts.parts(element); ++part) {
-      const PartStiffness own = cache.of(context, element, part, elastic);
+    for (const PartStiffness& own : elements.parts(element)) {
       for (std::size_t a = 0; a < own.unknowns.size(); ++a) {
         for (std::size_t b = 0; b < own.unknowns.size(); ++b) {
           add(own.unknowns[a], own.unknowns[b], own.matrix(Eigen::Index(a), Eigen::Index(b)));
@@ -127,40 +161,71 @@ void CellStiffness::build_rows(const BasisContext& context, const ElasticMatrix&
       }
     }
   }
-  rows_ = compress(entries);
+  rows_ = compress(entries, count_);
 }
 
-void CellStiffness::add_springs(const std::vector<char>& loose) {
-  constexpr double weak = 1e-6;  // of the unknown's own stiffness
+void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {
+  constexpr double idle = 1e-12;
+  for (const LocalId n : unknowns.special_nodes()) {
+    if (!mesh.owns(n) || unknowns.tips(n).empty()) continue;
+    std::vector<LocalId> block;
+    for (const TipUnknowns& tip : unknowns.tips(n)) {
+      for (LocalId k = 0; k < 8; ++k) block.push_back(tip.first + k);
+    }
+    const auto size = Eigen::Index(block.size());
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
+    const auto for_entries = [&](auto&& visit) {
+      for (Eigen::Index a = 0; a < size; ++a) {
+        const auto row = std::size_t(rows_.find(block[std::size_t(a)]));
+        for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k) {
+          const auto b = std::find(block.begin(), block.end(), rows_.column[k]) - block.begin();
+          if (b < size) visit(a, b, rows_.value[k]);
+        }
+      }
+    };
+    for_entries([&](Eigen::Index a, Eigen::Index b, double value) { own(a, b) = value; });
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(own);
+    const double largest = pairs.eigenvalues()[size - 1];
+    Eigen::MatrixXd hold = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index k = 0; k < size && pairs.eigenvalues()[k] < idle * largest; ++k) {
+      hold += largest * pairs.eigenvectors().col(k) * pairs.eigenvectors().col(k).transpose();
+    }
+    if (hold.isZero(0.0)) continue;
+    for_entries([&](Eigen::Index a, Eigen::Index b, double& value) { value += hold(a, b); });
+  }
+}
+
+void CellStiffness::add_springs(const std::vector<double>& springs) {
   for (std::size_t r = 0; r < rows_.unknown.size(); ++r) {
-    if (!loose[std::size_t(rows_.unknown[r])] || rows_.unknown[r] >= owned_) continue;
+    const LocalId u = rows_.unknown[r];
+    if (u >= owned_ || springs[std::size_t(u)] == 0.0) continue;
     for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
-      if (rows_.column[k] == rows_.unknown[r]) rows_.value[k] *= 1 + weak;
+      if (rows_.column[k] == u) rows_.value[k] *= 1 + springs[std::size_t(u)];
     }
   }
 }
 
-void CellStiffness::build_groups(const BasisContext& context, const std::vector<char>& held,
-                                 const std::vector<char>& regular) {
+void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
+                                 const std::vector<char>& held, const std::vector<char>& regular) {
   // cells of one zone form a group with the number of the zone; all others stand alone
   std::map<std::pair<int, LocalId>, std::vector<LocalId>> members;
-  for (LocalId n = 0; n < context.mesh.owned_nodes(); ++n) {
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
     if (regular[std::size_t(n)]) continue;
-    const auto tips = context.unknowns.tips(n);
+    const auto tips = unknowns.tips(n);
     const auto key = tips.empty() ? std::pair<int, LocalId>(-1, n)
                                   : std::pair<int, LocalId>(tips.front().zone, -1);
     members[key].push_back(n);
   }
   std::vector<LocalId> place(std::size_t(count_), -1);
   for (const auto& [key, nodes] : members) {
-    std::vector<LocalId> unknowns;
+    std::vector<LocalId> free;
     std::vector<std::size_t> rows;
     for (const LocalId n : nodes) {
-      for (const LocalId u : context.unknowns.of_cell(n)) {
+      for (const LocalId u : unknowns.of_cell(n)) {
         const std::ptrdiff_t row = rows_.find(u);
         if (held[std::size_t(u)] || row < 0) continue;
-        place[std::size_t(u)] = LocalId(unknowns.size());
-        unknowns.push_back(u);
+        place[std::size_t(u)] = LocalId(free.size());
+        free.push_back(u);
         rows.push_back(std::size_t(row));
       }
     }
@@ -173,9 +238,9 @@ void CellStiffness::build_groups(const BasisContext& context, const std::vector<
     }
     Eigen::SparseMatrix<double> matrix(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
     matrix.setFromTriplets(triplets.begin(), triplets.end());
-    for (const LocalId u : unknowns) place[std::size_t(u)] = -1;
-    if (!unknowns.empty())
-      groups_.emplace_back(nodes.front(), std::move(unknowns), std::move(rows), matrix);
+    for (const LocalId u : free) place[std::size_t(u)] = -1;
+    if (!free.empty())
+      groups_.emplace_back(nodes.front(), std::move(free), std::move(rows), matrix);
   }
 }
 

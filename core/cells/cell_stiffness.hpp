@@ -6,9 +6,8 @@
 #include "core/base/cell_system.hpp"
 #include "core/base/halo.hpp"
 #include "core/cells/cell_group.hpp"
-#include "core/cells/part_stiffness.hpp"
+#include "core/cells/element_stiffness.hpp"
 #include "core/cells/regular_runs.hpp"
-#include "core/cells/stiffness_cache.hpp"
 
 #include <memory>
 #include <vector>
@@ -26,15 +25,19 @@ struct StiffnessRows {
   std::ptrdiff_t find(LocalId unknown) const;
 };
 
-/// Implements the rule for the cells of this rank. Columns are owned: forces that own cells put on
-/// ghosts go to the ghosts' owners.
+/// Which sweeps of the rule the cells must be ready for.
+enum class Sweeps { none, one_after_the_other };
+
+/// Implements the rule for the cells of this rank, on any scale. Columns are owned: forces that own
+/// cells put on ghosts go to the ghosts' owners.
 class CellStiffness final : public CellSystem {
  public:
-  /// held: for every unknown, whether a support prescribes it; loose: for every unknown, whether a
-  /// weak spring holds it, because its body is held by nothing else (may be empty).
-  CellStiffness(const BasisContext& context, const ElasticMatrix& elastic,
-                const std::vector<char>& held, const std::vector<char>& loose,
-                StiffnessCache& cache, Communicator& communicator);
+  /// held: for every unknown, whether a support prescribes it; springs: of every unknown, a weak
+  /// spring as a part of its own stiffness, where nothing else holds its body (may be empty).
+  /// own_rows: nodes of cells that get rows even though they are regular.
+  CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
+                const std::vector<char>& held, const std::vector<double>& springs,
+                const std::vector<GlobalId>& own_rows, Sweeps sweeps, Communicator& communicator);
 
   LocalId owned() const override { return owned_; }
   LocalId count() const override { return count_; }
@@ -49,6 +52,11 @@ class CellStiffness final : public CellSystem {
   void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
   void clear_held(std::span<double> values) const override;
 
+  const RegularRuns& regular() const { return regular_; }
+  /// Of all cells that do not use the common stencil; columns of ghosts included.
+  const StiffnessRows& rows() const { return rows_; }
+  /// Own unknowns that supports hold, ascending.
+  const std::vector<LocalId>& held() const { return held_; }
   /// Cells that use the common stencil.
   std::int64_t regular_cells() const { return regular_.cells(); }
   std::int64_t own_row_entries() const { return std::int64_t(rows_.value.size()); }
@@ -62,11 +70,14 @@ class CellStiffness final : public CellSystem {
     bool at_border;  ///< coupled to ghosts
   };
 
-  void build_rows(const BasisContext& context, const ElasticMatrix& elastic,
-                  const std::vector<char>& regular, StiffnessCache& cache);
-  void add_springs(const std::vector<char>& loose);
-  void build_groups(const BasisContext& context, const std::vector<char>& held,
-                    const std::vector<char>& regular);
+  void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
+                  const std::vector<char>& regular);
+  /// Combinations of a cell's near-tip functions that strain nothing, as where these act on a small
+  /// corner of its support only, are held at 0.
+  void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);
+  void add_springs(const std::vector<double>& springs);
+  void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
+                    const std::vector<char>& held, const std::vector<char>& regular);
   void order_items();
   void colour_ranks(const LocalMesh& mesh);
   bool at_border(const CellGroup& group) const;

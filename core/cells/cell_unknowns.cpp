@@ -35,20 +35,21 @@ std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, 
 
 }  // namespace
 
-CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementCuts& cuts,
+CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
                            const std::vector<TipZone>& zones, Communicator& communicator)
     : owned_nodes_(mesh.owned_nodes()) {
-  find_own(mesh, cuts, zones);
+  find_own(mesh, elements, zones);
   tell_ghosts(mesh, communicator);
   number(mesh);
 }
 
-void CellUnknowns::find_own(const LocalMesh& mesh, const ElementCuts& cuts,
+void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
                             const std::vector<TipZone>& zones) {
   std::set<LocalId> candidates;
-  for (LocalId e = 0; e < mesh.element_count(); ++e) {
-    if (!cuts.touched(mesh.element(e))) continue;
-    for (const LocalId n : mesh.element_nodes(mesh.element(e))) candidates.insert(n);
+  for (const GlobalId id : elements.touched_elements()) {
+    const GridIndex e = mesh.grid().element_index(id);
+    if (mesh.find_element(e) < 0) continue;
+    for (const LocalId n : mesh.element_nodes(e)) candidates.insert(n);
   }
   for (const TipZone& zone : zones) {
     for (const GlobalId id : zone.nodes) {
@@ -59,7 +60,7 @@ void CellUnknowns::find_own(const LocalMesh& mesh, const ElementCuts& cuts,
   for (const LocalId n : candidates) {
     if (!mesh.owns(n)) continue;
     SpecialCell cell;
-    cell.pieces = pieces_of(cuts, mesh.node(n));
+    cell.pieces = pieces_of(elements, mesh.node(n));
     for (std::size_t z = 0; z < zones.size(); ++z) {
       if (zones[z].nodes.count(mesh.node_id(n))) cell.tips.push_back({int(z), 0});
     }
@@ -90,7 +91,7 @@ void CellUnknowns::tell_ghosts(const LocalMesh& mesh, Communicator& communicator
 }
 
 void CellUnknowns::number(const LocalMesh& mesh) {
-  std::vector<LocalId> nodes;
+  std::vector<LocalId>& nodes = special_nodes_;
   for (const auto& [n, cell] : special_) nodes.push_back(n);
   std::sort(nodes.begin(), nodes.end());
   LocalId next = 2 * owned_nodes_;

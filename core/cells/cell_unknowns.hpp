@@ -33,14 +33,16 @@ class CellUnknowns {
  public:
   CellUnknowns() = default;
   /// Collective: owners tell the ranks that hold ghosts of their cells what pieces these have.
-  CellUnknowns(const LocalMesh& mesh, const ElementCuts& cuts, const std::vector<TipZone>& zones,
-               Communicator& communicator);
+  CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
+               const std::vector<TipZone>& zones, Communicator& communicator);
 
   LocalId owned() const { return owned_; }
   LocalId count() const { return count_; }
 
   /// Null for a plain cell.
   const SpecialCell* special(LocalId node) const;
+  /// All cells that are not plain, ghosts included, ascending.
+  const std::vector<LocalId>& special_nodes() const { return special_nodes_; }
   /// First unknown (x; y follows) of a piece.
   LocalId of_piece(LocalId node, int piece) const;
   /// Every unknown of a cell in order: pieces, then near-tip.
@@ -53,7 +55,8 @@ class CellUnknowns {
   std::vector<SharedUnknowns> shared(const LocalMesh& mesh) const;
 
  private:
-  void find_own(const LocalMesh& mesh, const ElementCuts& cuts, const std::vector<TipZone>& zones);
+  void find_own(const LocalMesh& mesh, const ElementParts& elements,
+                const std::vector<TipZone>& zones);
   void tell_ghosts(const LocalMesh& mesh, Communicator& communicator);
   void number(const LocalMesh& mesh);
 
@@ -62,6 +65,7 @@ class CellUnknowns {
   LocalId owned_ = 0;
   LocalId count_ = 0;
   std::unordered_map<LocalId, SpecialCell> special_;
+  std::vector<LocalId> special_nodes_;
 };
 
 }  // namespace cdca

@@ -2,7 +2,7 @@
 /// The cut elements of the grid, made when they are first asked for.
 #pragma once
 
-#include "core/cells/cut_element.hpp"
+#include "core/cells/element_parts.hpp"
 #include "core/cracks/crack_paths.hpp"
 #include "core/mesh/grid.hpp"
 
@@ -24,7 +24,7 @@ struct CrackFace {
   int minus_part = 0;
 };
 
-class ElementCuts {
+class ElementCuts final : public ElementParts {
  public:
   ElementCuts() = default;
   ElementCuts(const StructuredGrid& grid, CrackPaths paths)
@@ -32,14 +32,14 @@ class ElementCuts {
   /// Takes over the cut elements of `previous` in which the cracks have not changed.
   ElementCuts(const StructuredGrid& grid, CrackPaths paths, const ElementCuts& previous);
 
-  const StructuredGrid& grid() const { return grid_; }
+  const StructuredGrid& grid() const override { return grid_; }
+  const std::vector<GlobalId>& touched_elements() const override { return paths_.touched(); }
   const CrackPaths& paths() const { return paths_; }
 
   /// The cut element, or null when no crack touches the element: then it has one part, number 0.
   const CutElement* find(GridIndex element) const;
-  int parts(GridIndex element) const;
-  /// The portions of one side, whether the element is cut or not.
-  const std::vector<SidePortion>& side(GridIndex element, std::size_t side) const;
+  int parts(GridIndex element) const override;
+  const std::vector<SidePortion>& side(GridIndex element, std::size_t side) const override;
   /// The part that holds a place given in grid coordinates inside (or on the rim of) the element.
   int part_at(GridIndex element, const Vec2& at) const;
   /// All parts that reach the place; several on a crack.
@@ -49,8 +49,7 @@ class ElementCuts {
   std::vector<CrackFace> faces_of(GridIndex element) const;
   /// Faces on which the element lies on one side or both.
   std::vector<CrackFace> faces_at(GridIndex element) const;
-  /// Elements that cracks touch among a list of all elements that a rank holds.
-  bool touched(GridIndex element) const { return !paths_.steps_in(element).empty(); }
+  bool touched(GridIndex element) const override { return !paths_.steps_in(element).empty(); }
 
  private:
   void add_side_faces(GridIndex element, std::vector<CrackFace>& faces) const;

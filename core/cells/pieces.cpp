@@ -15,7 +15,7 @@ constexpr Spoke spokes[4] = {{0, 1, 1, 3}, {1, 2, 2, 0}, {3, 1, 2, 3}, {0, 2, 3,
 
 }  // namespace
 
-CellPieces pieces_of(const ElementCuts& cuts, GridIndex node) {
+CellPieces pieces_of(const ElementParts& cuts, GridIndex node) {
   const StructuredGrid& grid = cuts.grid();
   const auto elements = grid.elements_round(node);
   std::array<int, 5> first{0, 0, 0, 0, 0};

@@ -2,7 +2,7 @@
 /// The pieces of a cell: the connected parts into which cracks cut the support of its node.
 #pragma once
 
-#include "core/cells/element_cuts.hpp"
+#include "core/cells/element_parts.hpp"
 
 #include <array>
 #include <vector>
@@ -23,6 +23,6 @@ struct CellPieces {
 
 /// Looks at the whole support: to be asked of the owner of the node only, for a ghost may not see
 /// all of it.
-CellPieces pieces_of(const ElementCuts& cuts, GridIndex node);
+CellPieces pieces_of(const ElementParts& elements, GridIndex node);
 
 }  // namespace cdca

@@ -34,9 +34,13 @@ RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular
       }
     }
   }
+  inverse_ = diagonal().inverse();
+}
+
+Eigen::Matrix2d RegularRuns::diagonal() const {
   Eigen::Matrix2d centre;
   centre << stencil_[1][0][2], stencil_[1][0][3], stencil_[1][1][2], stencil_[1][1][3];
-  inverse_ = centre.inverse();
+  return centre;
 }
 
 std::int64_t RegularRuns::cells() const {

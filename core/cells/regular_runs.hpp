@@ -28,6 +28,8 @@ class RegularRuns {
 
   const std::vector<RegularRun>& runs() const { return runs_; }
   std::int64_t cells() const;
+  /// K_i of a regular cell.
+  Eigen::Matrix2d diagonal() const;
   /// forces = K x for the cells of all runs.
   void apply(std::span<const double> x, std::span<double> forces) const;
   /// The rule for one run, in the direction of growing node numbers or against it.

@@ -155,6 +155,8 @@ CrackPaths::CrackPaths(const StructuredGrid& grid, const std::vector<Crack>& cra
       }
     }
   }
+  for (const auto& [id, steps] : by_element_) touched_.push_back(id);
+  std::sort(touched_.begin(), touched_.end());
 }
 
 void CrackPaths::add_step(PathStep step) {

@@ -41,6 +41,8 @@ class CrackPaths {
   const std::vector<PathStep>& steps() const { return steps_; }
   /// The steps inside an element or along its edges; empty for most elements.
   const std::vector<int>& steps_in(GridIndex element) const;
+  /// Elements with steps, in order of id.
+  const std::vector<GlobalId>& touched() const { return touched_; }
   const PathStep& step_in(GridIndex element, int index) const {
     return steps_[std::size_t(steps_in(element)[std::size_t(index)])];
   }
@@ -52,6 +54,7 @@ class CrackPaths {
   StructuredGrid grid_;
   std::vector<PathStep> steps_;
   std::unordered_map<GlobalId, std::vector<int>> by_element_;
+  std::vector<GlobalId> touched_;
   std::vector<PathTip> tips_;
 };
 

@@ -54,12 +54,29 @@ PartitionGraph block_graph(const StructuredGrid& grid, int block,
 
 BlockPartition::BlockPartition(const StructuredGrid& grid, int block, std::vector<int> owner)
     : block_(block),
+      last_{grid.nx(), grid.ny()},
       blocks_x_(blocks_along(grid.nx() + 1, block)),
       blocks_y_(blocks_along(grid.ny() + 1, block)),
       owner_(std::move(owner)) {
   if (owner_.size() != std::size_t(blocks_x_) * std::size_t(blocks_y_)) {
     throw SolveError("a partition does not list one owner for every block of cells");
   }
+}
+
+BlockPartition BlockPartition::coarser() const {
+  BlockPartition partition = *this;
+  partition.stride_ *= 2;
+  return partition;
+}
+
+BlockPartition::Range BlockPartition::nodes_of_block(int block, int nx, int ny) const {
+  const int bi = block % blocks_x_, bj = block / blocks_x_;
+  const auto up = [this](int node) { return (node + stride_ - 1) / stride_; };
+  Range range{{up(bi * block_), up(bj * block_)}, {up((bi + 1) * block_), up((bj + 1) * block_)}};
+  // nodes beyond the rim belong to the last block
+  if (bi == blocks_x_ - 1) range.end.i = nx + 1;
+  if (bj == blocks_y_ - 1) range.end.j = ny + 1;
+  return range;
 }
 
 BlockPartition partition_cells(const StructuredGrid& grid, const std::vector<CellWeight>& weights,

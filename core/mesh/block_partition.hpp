@@ -6,6 +6,7 @@
 #include "core/base/communicator.hpp"
 #include "core/mesh/grid.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -19,17 +20,32 @@ class BlockPartition {
   /// owner_of_block: one rank per block, blocks numbered row by row.
   BlockPartition(const StructuredGrid& grid, int block, std::vector<int> owner_of_block);
 
+  /// Of the grid that coarser() gives: its nodes belong to whoever owns the node at the same place
+  /// here, or, beyond the rim, the nearest one.
+  BlockPartition coarser() const;
+
   int owner(GridIndex node) const {
     if (owner_.empty()) return 0;
-    return owner_[std::size_t(node.j / block_) * std::size_t(blocks_x_) +
-                  std::size_t(node.i / block_)];
+    const int i = std::min(node.i * stride_, last_.i), j = std::min(node.j * stride_, last_.j);
+    return owner_[std::size_t(j / block_) * std::size_t(blocks_x_) + std::size_t(i / block_)];
   }
   int block() const { return block_; }
   int blocks_x() const { return blocks_x_; }
   int blocks_y() const { return blocks_y_; }
+  /// All cells belong to one rank.
+  bool is_whole() const { return owner_.empty(); }
+  int block_count() const { return int(owner_.size()); }
+  int owner_of_block(int block) const { return owner_[std::size_t(block)]; }
+  /// The nodes of a block in a grid of nx x ny elements: from first to just before end.
+  struct Range {
+    GridIndex first, end;
+  };
+  Range nodes_of_block(int block, int nx, int ny) const;
 
  private:
   int block_ = 1 << 30;
+  int stride_ = 1;    ///< nodes of the finest grid from one node of this one to the next
+  GridIndex last_{};  ///< node of the finest grid
   int blocks_x_ = 1;
   int blocks_y_ = 1;
   std::vector<int> owner_;

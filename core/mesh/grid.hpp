@@ -34,6 +34,13 @@ class StructuredGrid {
   const Vec2& element_size() const { return h_; }
   double smallest_side() const { return h_.minCoeff(); }
 
+  /// The grid of elements twice as large. Where the number of elements is odd it reaches over the
+  /// rim by one element of this grid.
+  StructuredGrid coarser() const {
+    const int nx = (nx_ + 1) / 2, ny = (ny_ + 1) / 2;
+    return {origin_, Vec2(2 * nx * h_.x(), 2 * ny * h_.y()), nx, ny};
+  }
+
   GlobalId node_count() const { return GlobalId(nx_ + 1) * (ny_ + 1); }
   GlobalId element_count() const { return GlobalId(nx_) * ny_; }
 

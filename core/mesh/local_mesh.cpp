@@ -14,25 +14,32 @@ bool row_by_row(const GridIndex& a, const GridIndex& b) {
 }  // namespace
 
 LocalMesh::LocalMesh(const StructuredGrid& grid, const BlockPartition& partition, int rank)
+    : LocalMesh(grid, partition, rank, nullptr) {}
+
+LocalMesh::LocalMesh(const StructuredGrid& grid, const BlockPartition& partition, int rank,
+                     const LocalMesh* finer)
     : grid_(grid), partition_(partition), rank_(rank) {
   collect_owned();
   collect_elements();
-  collect_ghosts();
-  collect_shared();
+  collect_ghosts(finer);
+  collect_shared(finer);
+}
+
+LocalMesh LocalMesh::coarser() const {
+  return LocalMesh(grid_.coarser(), partition_.coarser(), rank_, this);
 }
 
 void LocalMesh::collect_owned() {
-  const int block = partition_.block();
-  for (int bj = 0; bj < partition_.blocks_y(); ++bj) {
-    for (int bi = 0; bi < partition_.blocks_x(); ++bi) {
-      if (partition_.owner({bi * block, bj * block}) != rank_) continue;
-      for (int j = bj * block; j < std::min((bj + 1) * block, grid_.ny() + 1); ++j) {
-        for (int i = bi * block; i < std::min((bi + 1) * block, grid_.nx() + 1); ++i) {
-          nodes_.push_back({i, j});
-        }
-      }
-      if (block > grid_.nx() && block > grid_.ny()) break;
+  const auto take = [this](GridIndex first, GridIndex end) {
+    for (int j = first.j; j < end.j; ++j) {
+      for (int i = first.i; i < end.i; ++i) nodes_.push_back({i, j});
     }
+  };
+  if (partition_.is_whole() && rank_ == 0) take({0, 0}, {grid_.nx() + 1, grid_.ny() + 1});
+  for (int block = 0; block < partition_.block_count(); ++block) {
+    if (partition_.owner_of_block(block) != rank_) continue;
+    const auto range = partition_.nodes_of_block(block, grid_.nx(), grid_.ny());
+    take(range.first, range.end);
   }
   std::sort(nodes_.begin(), nodes_.end(), row_by_row);
   owned_ = LocalId(nodes_.size());
@@ -56,8 +63,25 @@ void LocalMesh::collect_elements() {
   element_index_.finish();
 }
 
-void LocalMesh::collect_ghosts() {
+namespace {
+
+/// The coarse nodes from which a fine node takes its displacement.
+std::array<GridIndex, 4> parents_of(GridIndex fine) {
+  const int i = fine.i / 2, j = fine.j / 2, right = (fine.i + 1) / 2, above = (fine.j + 1) / 2;
+  return {{{i, j}, {right, j}, {i, above}, {right, above}}};
+}
+
+}  // namespace
+
+void LocalMesh::collect_ghosts(const LocalMesh* finer) {
   std::vector<GridIndex> ghosts;
+  if (finer && !partition_.is_whole()) {
+    for (LocalId n = 0; n < finer->owned_nodes(); ++n) {
+      for (const GridIndex parent : parents_of(finer->node(n))) {
+        if (partition_.owner(parent) != rank_) ghosts.push_back(parent);
+      }
+    }
+  }
   for (const GridIndex e : elements_) {
     for (const GridIndex corner : grid_.corners(e)) {
       if (partition_.owner(corner) != rank_) ghosts.push_back(corner);
@@ -70,7 +94,7 @@ void LocalMesh::collect_ghosts() {
   node_index_.finish();
 }
 
-void LocalMesh::collect_shared() {
+void LocalMesh::collect_shared(const LocalMesh* finer) {
   // whoever has an element with one of my cells and one of its own holds both: the relation is
   // symmetric, so both sides find the same lists without a message
   std::map<int, std::set<LocalId>> owned, ghosts;
@@ -85,10 +109,32 @@ void LocalMesh::collect_shared() {
       }
     }
   }
-  for (const auto& [rank, nodes] : ghosts) {
+  if (finer && !partition_.is_whole()) {
+    // the same for a parent and its children
+    for (LocalId n = 0; n < finer->owned_nodes(); ++n) {
+      for (const GridIndex parent : parents_of(finer->node(n))) {
+        const int other = partition_.owner(parent);
+        if (other != rank_) ghosts[other].insert(find_node(parent));
+      }
+    }
+    for (LocalId n = 0; n < owned_; ++n) {
+      const GridIndex at = node(n);
+      for (int j = 2 * at.j - 1; j <= 2 * at.j + 1; ++j) {
+        for (int i = 2 * at.i - 1; i <= 2 * at.i + 1; ++i) {
+          if (i < 0 || j < 0 || i > finer->grid().nx() || j > finer->grid().ny()) continue;
+          const int other = finer->owner({i, j});
+          if (other != rank_) owned[other].insert(n);
+        }
+      }
+    }
+  }
+  std::set<int> ranks;
+  for (const auto& [rank, nodes] : ghosts) ranks.insert(rank);
+  for (const auto& [rank, nodes] : owned) ranks.insert(rank);
+  for (const int rank : ranks) {
     SharedNodes shared;
     shared.rank = rank;
-    shared.ghosts.assign(nodes.begin(), nodes.end());
+    shared.ghosts.assign(ghosts[rank].begin(), ghosts[rank].end());
     shared.owned.assign(owned[rank].begin(), owned[rank].end());
     shared_.push_back(std::move(shared));
   }

@@ -23,6 +23,9 @@ class LocalMesh {
  public:
   LocalMesh() = default;
   LocalMesh(const StructuredGrid& grid, const BlockPartition& partition, int rank);
+  /// The mesh of elements twice as large. Coarse cells live where the fine cell at the same place
+  /// lives; the parents of own fine cells are ghosts as well, even without a common element.
+  LocalMesh coarser() const;
 
   const StructuredGrid& grid() const { return grid_; }
   int rank() const { return rank_; }
@@ -47,10 +50,12 @@ class LocalMesh {
   std::span<const SharedNodes> shared() const { return shared_; }
 
  private:
+  LocalMesh(const StructuredGrid& grid, const BlockPartition& partition, int rank,
+            const LocalMesh* finer);
   void collect_owned();
   void collect_elements();
-  void collect_ghosts();
-  void collect_shared();
+  void collect_ghosts(const LocalMesh* finer);
+  void collect_shared(const LocalMesh* finer);
 
   StructuredGrid grid_;
   BlockPartition partition_;

@@ -3,6 +3,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/first_failure.hpp"
+#include "core/solver/multilevel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,12 @@
 
 namespace cdca {
 
-std::unique_ptr<EquilibriumSolver> make_solver(const SolverSpec& spec) {
+std::unique_ptr<EquilibriumSolver> make_solver(const Model& model) {
+  const SolverSpec& spec = model.spec().solver;
   const SolverOptions options{spec.tolerance, spec.over_relaxation, spec.max_iterations};
-  return spec.method == SolverMethod::relaxation ? make_relaxation(options) : make_krylov(options);
+  if (spec.method == SolverMethod::relaxation) return make_relaxation(options);
+  if (spec.method == SolverMethod::krylov) return make_krylov(options);
+  return make_multilevel(options, model.hierarchy());
 }
 
 namespace {

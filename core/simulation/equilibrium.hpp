@@ -7,7 +7,7 @@
 
 namespace cdca {
 
-std::unique_ptr<EquilibriumSolver> make_solver(const SolverSpec& spec);
+std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
 
 struct Equilibrium {
   SolverReport solver;

@@ -90,7 +90,7 @@ void scale(Model& model, Equilibrium& equilibrium, std::vector<TipAssessment>& t
 
 void run_prescribed(Model& model, Recorder& recorder) {
   const CaseSpec& spec = model.spec();
-  const auto solver = make_solver(spec.solver);
+  const auto solver = make_solver(model);
   const GrowthCriterion criterion(model);
   const bool joined = model.joins_loaded_boundaries();
   EnergyLedger energy;
@@ -135,7 +135,7 @@ void run_prescribed(Model& model, Recorder& recorder) {
 
 void run_critical(Model& model, Recorder& recorder) {
   const CaseSpec& spec = model.spec();
-  const auto solver = make_solver(spec.solver);
+  const auto solver = make_solver(model);
   const GrowthCriterion criterion(model);
   const bool joined = model.joins_loaded_boundaries();
   EnergyLedger energy;

@@ -22,7 +22,8 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
     : spec_(spec),
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
-      material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain} {
+      material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
+      hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_, partition_cells(grid_, weights, communicator_, partitioner),
@@ -35,7 +36,8 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
     : spec_(spec),
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
-      material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain} {
+      material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
+      hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
   build_cells();
@@ -66,9 +68,16 @@ void Model::find_bodies() {
 
 void Model::build_stiffness() {
   cache_.begin_cycle();
-  stiffness_ = std::make_unique<CellStiffness>(basis(), material_.elastic_matrix(),
-                                               supports_.flags(unknowns_.count()), loose_unknowns(),
-                                               cache_, communicator_);
+  const auto held = supports_.flags(unknowns_.count());
+  const auto weak = springs();
+  elastic_ = material_.elastic_matrix();
+  FinestElements elements(basis(), elastic_, cache_);
+  const bool multilevel = spec_.solver.method == SolverMethod::multilevel;
+  stiffness_ = std::make_unique<CellStiffness>(
+      mesh_, unknowns_, elements, held, weak,
+      multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
+      multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_);
+  if (multilevel) hierarchy_.build({basis(), elastic_, held, weak}, *stiffness_);
 }
 
 void Model::lay_cracks(CrackRegistry registry) {
@@ -84,19 +93,20 @@ void Model::lay_cracks(CrackRegistry registry) {
   build_stiffness();
 }
 
-std::vector<char> Model::loose_unknowns() const {
+std::vector<double> Model::springs() const {
+  constexpr double weak = 1e-6;  // of the unknown's own stiffness
   bool any = false;
   for (const Body& body : bodies_->list()) any = any || !body.held;
   if (!any) return {};
-  std::vector<char> loose(std::size_t(unknowns_.count()), 0);
+  std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
       if (bodies_->list()[bodies_->body_of(n, p)].held) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
-      loose[u] = loose[u + 1] = 1;
+      springs[u] = springs[u + 1] = weak;
     }
   }
-  return loose;
+  return springs;
 }
 
 bool Model::joins_loaded_boundaries() const {

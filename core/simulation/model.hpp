@@ -5,6 +5,7 @@
 #include "core/cells/bodies.hpp"
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
+#include "core/hierarchy/hierarchy.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
@@ -52,6 +53,8 @@ class Model {
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
   const CellStiffness& stiffness() const { return *stiffness_; }
+  /// The scales of the multilevel solver; empty for the other methods.
+  const Hierarchy& hierarchy() const { return hierarchy_; }
   BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
   Rectangle body() const { return {grid_.origin(), grid_.origin() + grid_.size()}; }
   /// Cracks that come nearer than this touch, m.
@@ -72,7 +75,7 @@ class Model {
   void place_cracks();
   void build_cells();
   void find_bodies();
-  std::vector<char> loose_unknowns() const;
+  std::vector<double> springs() const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 
@@ -88,7 +91,9 @@ class Model {
   Supports supports_;
   std::unique_ptr<Bodies> bodies_;
   StiffnessCache cache_;
+  ElasticMatrix elastic_;
   std::unique_ptr<CellStiffness> stiffness_;
+  Hierarchy hierarchy_;
   std::vector<double> state_;
 };
 

@@ -38,6 +38,7 @@ CaseSpec plate(int nx, int ny, std::vector<std::vector<Vec2>> cracks) {
   bottom.displacement = load(0, 0);
   top.traction = load(0.3, 1.0);
   spec.boundaries = {bottom, top};
+  spec.solver.method = SolverMethod::krylov;  // cells ready for sweeps
   return spec;
 }
 

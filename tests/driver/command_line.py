@@ -122,7 +122,7 @@ class InputTest(ProgramTest):
             ("poisson = 0.3", "poisson = 0.5", "plate.toml:6: material.poisson: Found 0.5; allowed is"),
             ("poisson = 0.3", "poisson = nan", "plate.toml:6: material.poisson: Found nan; allowed are finite numbers"),
             ("poisson = 0.3\n", "", 'plate.toml:4: material.poisson: The required key "poisson" is missing'),
-            ("[output]", "[solver]\nmethod = \"multilevel\"\n[output]", "plate.toml:14: solver.method: The value"),
+            ("[output]", "[contact]\nlaw = \"coulomb\"\n[output]", "plate.toml:14: contact.law: The value"),
             ("[output]", "[[crack]]\npoints = [[0, 0.5], [1.5, 0.5]]\n[output]",
              'plate.toml:14: crack[0].points[1]: The crack "crack1" reaches [1.5, 0.5]'),
             ("displacement = [0.0, 0.0]", 'displacement = ["free", 0.0]', "plate.toml:7: boundary: The supports leave"),

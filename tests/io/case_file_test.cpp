@@ -49,7 +49,7 @@ TEST(CaseFile, FillsInTheDefaults) {
   EXPECT_FALSE(spec.domain.body_force[0] || spec.domain.body_force[1]);
   EXPECT_FALSE(spec.material.tensile_strength || spec.material.toughness);
   EXPECT_EQ(spec.tip_radius, 0.0);
-  EXPECT_EQ(spec.solver.method, SolverMethod::krylov);
+  EXPECT_EQ(spec.solver.method, SolverMethod::multilevel);
   EXPECT_EQ(spec.solver.over_relaxation, 1.0);
   EXPECT_EQ(spec.solver.max_iterations, 0);
   EXPECT_TRUE(spec.output.pictures);

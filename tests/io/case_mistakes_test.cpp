@@ -79,7 +79,7 @@ const Mistake values[] = {
     {"tolerance = 1e-9", "method = \"relaxation\"\nover_relaxation = 2.0", "over_relaxation",
      "solver.over_relaxation", "greater than 0 and less than 2"},
     {"tolerance = 1e-9", "over_relaxation = 1.5", "over_relaxation", "solver.over_relaxation",
-     "the method \"krylov\" has no over-relaxation"},
+     "only the method \"relaxation\" has an over-relaxation"},
     {"every = 2", "every = 0", "every", "output.every", "at least 1"},
     {"every = 2", "pictures = \"yes\"", "pictures", "output.pictures", "true or false"},
     {"steps = 4", "steps = 0", "steps", "loading.steps", "at least 1"},
@@ -102,9 +102,6 @@ INSTANTIATE_TEST_SUITE_P(Names, CaseFileMistake, ::testing::ValuesIn(names));
 INSTANTIATE_TEST_SUITE_P(Values, CaseFileMistake, ::testing::ValuesIn(values));
 
 const Mistake later[] = {
-    {"tolerance = 1e-9", "method = \"multilevel\"", "method", "solver.method",
-     "The value \"multilevel\" is known, but this version does not support it yet; allowed are "
-     "\"krylov\" and \"relaxation\"."},
     {"[solver]", "[contact]\nlaw = \"coulomb\"\n[solver]", "law", "contact.law",
      "known, but this version"},
     {"[solver]", "[contact]\nfriction = 0.4\n[solver]", "friction", "contact.friction",

@@ -72,7 +72,7 @@ class Patch : public ::testing::TestWithParam<Layout> {
     for (std::size_t k = 0; k < external.size(); ++k) external[k] -= product[k];
     cells.clear_held(external);
     const double scale = std::sqrt(cells.dot(external, external));
-    const auto report = make_solver(s.solver)->solve(cells, external, model->state(), scale);
+    const auto report = make_solver(*model)->solve(cells, external, model->state(), scale);
     EXPECT_TRUE(report.converged);
     for (std::size_t k = 0; k < held.size(); ++k) model->state()[k] += held[k];
     const FieldErrors errors = errors_of(*model, exact, {});

@@ -119,7 +119,7 @@ SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad&
     s.rim->hold(*s.spec);
   }
   s.model = built(*s.spec);
-  const auto solver = make_solver(s.spec->solver);
+  const auto solver = make_solver(*s.model);
   find_equilibrium(*s.model, *solver, 1.0);
   s.tips = tips_of(*s.model);
   if (g.infinite) settle_rim(s, *solver);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The coarsest scale, gathered and factored on every rank.
+#pragma once
+
+#include "core/cells/cell_stiffness.hpp"
+
+#include <Eigen/SparseCholesky>
+
+#include <memory>
+#include <span>
+
+namespace cdca {
+
+class CoarsestSolve {
+ public:
+  /// cells must have rows for all of its cells. Collective.
+  explicit CoarsestSolve(const CellStiffness& cells);
+  /// moves = K^-1 forces on own cells; 0 on held unknowns. Collective.
+  void solve(std::span<const double> forces, std::span<double> moves) const;
+
+ private:
+  const CellStiffness& cells_;
+  std::size_t first_ = 0;  ///< of own unknowns among those of all ranks
+  std::size_t total_ = 0;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/hierarchy/hierarchy.hpp"
+
+#include <algorithm>
+
+namespace cdca {
+
+namespace {
+
+std::vector<GlobalId> cells_of(const WindowPlans& plans) {
+  std::vector<GlobalId> nodes;
+  for (const WindowPlan& w : plans.windows)
+    nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<GlobalId> all_own(const LocalMesh& mesh) {
+  std::vector<GlobalId> nodes;
+  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) nodes.push_back(mesh.node_id(n));
+  return nodes;
+}
+
+}  // namespace
+
+/// One scale. The finest borrows its cells, the others have their own.
+class Hierarchy::Level final : public Scale {
+ public:
+  Level(const LocalMesh& mesh, const CellUnknowns& unknowns, const CellStiffness& cells)
+      : mesh_(&mesh), unknowns_(&unknowns), cells_(&cells) {}
+
+  /// A coarse scale. own_rows: cells of windows, or all cells of the coarsest.
+  Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator)
+      : parts_(std::move(parts)),
+        own_unknowns_(std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(),
+                                                     communicator)),
+        mesh_(&mesh),
+        unknowns_(own_unknowns_.get()) {}
+
+  const CellSystem& cells() const override { return *cells_; }
+  void move_plain_cells(std::span<const double> forces, std::span<double> moves) const override {
+    plain_.move(forces, moves);
+  }
+  void move_windows(SweepDirection direction, std::span<double> forces,
+                    std::span<double> moves) const override {
+    windows_->move(direction, forces, moves);
+  }
+  void forces_to_coarser(std::span<const double> forces, std::span<double> coarser) const override {
+    transfer_->to_coarse(forces, next_->cells_->halo(), coarser);
+  }
+  void add_moves_of_coarser(std::span<double> coarser, std::span<double> moves) const override {
+    transfer_->add_to_fine(coarser, next_->cells_->halo(), moves);
+  }
+  void solve(std::span<const double> forces, std::span<double> moves) const override {
+    coarsest_->solve(forces, moves);
+  }
+
+  /// The halo of cells that have no stiffness yet.
+  Halo halo(Communicator& communicator) const { return {communicator, unknowns_->shared(*mesh_)}; }
+  void set_transfer(const ScaleParts& parts, const Level& next) {
+    next_ = &next;
+    transfer_ = std::make_unique<Transfer>(Transfer::Scale{*mesh_, *unknowns_, parts}, *next.mesh_,
+                                           *next.unknowns_, *next.parts_);
+  }
+  void set_cells(const std::vector<GlobalId>& own_rows, std::vector<char> held,
+                 std::vector<double> springs, Communicator& communicator) {
+    CoarseElements elements(*mesh_, *unknowns_, *parts_);
+    own_cells_ = std::make_unique<CellStiffness>(*mesh_, *unknowns_, elements, held, springs,
+                                                 own_rows, Sweeps::none, communicator);
+    cells_ = own_cells_.get();
+  }
+  void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors) {
+    plain_ = PlainCells(*mesh_, *unknowns_, *cells_, plain, plans.near_cracks);
+    windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors);
+  }
+  void set_coarsest() { coarsest_ = std::make_unique<CoarsestSolve>(*cells_); }
+
+  const CoarseParts* parts() const { return parts_.get(); }
+  const CellUnknowns& unknowns() const { return *unknowns_; }
+  const Transfer& transfer() const { return *transfer_; }
+
+ private:
+  std::unique_ptr<CoarseParts> parts_;
+  std::unique_ptr<CellUnknowns> own_unknowns_;
+  std::unique_ptr<CellStiffness> own_cells_;
+  const LocalMesh* mesh_;
+  const CellUnknowns* unknowns_;
+  const CellStiffness* cells_ = nullptr;
+  const Level* next_ = nullptr;
+  PlainCells plain_;
+  std::unique_ptr<Windows> windows_;
+  std::unique_ptr<Transfer> transfer_;
+  std::unique_ptr<CoarsestSolve> coarsest_;
+};
+
+void Hierarchy::LevelDeleter::operator()(Level* level) const { delete level; }
+
+const Scale& Hierarchy::scale(std::size_t index) const { return *levels_[index]; }
+
+std::vector<GlobalId> Hierarchy::plan(const BasisContext& basis) {
+  if (is_coarsest(basis.mesh.grid())) return all_own(basis.mesh);
+  finest_plans_ = plan_windows(basis.cuts, basis.zones, shape_.windows);
+  return cells_of(finest_plans_);
+}
+
+void Hierarchy::lay_meshes(const LocalMesh& finest) {
+  if (!meshes_.empty()) return;
+  const LocalMesh* mesh = &finest;
+  std::size_t scales = 0;
+  for (StructuredGrid g = finest.grid(); !is_coarsest(g); g = g.coarser()) ++scales;
+  meshes_.reserve(scales);
+  while (!is_coarsest(mesh->grid())) {
+    meshes_.push_back(mesh->coarser());
+    mesh = &meshes_.back();
+  }
+}
+
+void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
+  const BasisContext& basis = finest.basis;
+  Communicator& communicator = cells.communicator();
+  const GridIndex body{basis.mesh.grid().nx(), basis.mesh.grid().ny()};
+  lay_meshes(basis.mesh);
+  factors_.begin_cycle();
+  levels_.clear();
+  finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic);
+  levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
+  if (meshes_.empty()) {
+    levels_[0]->set_coarsest();
+    return;
+  }
+  levels_[0]->set_smoother(finest_plans_,
+                           plain_stiffness(basis.mesh.grid().element_size(), finest.elastic),
+                           factors_);
+  const ScaleParts* finer = finest_parts_.get();
+  std::vector<double> held(finest.held.begin(), finest.held.end()), springs = finest.springs;
+  for (std::size_t k = 0; k < meshes_.size(); ++k) {
+    levels_.emplace_back(new Level(
+        meshes_[k],
+        std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic), communicator));
+    Level& level = *levels_.back();
+    const CoarseParts& parts = *level.parts();
+    levels_[k]->set_transfer(*finer, level);
+    const Halo halo = level.halo(communicator);
+    const auto coarse = [&](const std::vector<double>& fine) {
+      std::vector<double> sum(std::size_t(level.unknowns().count()), 0.0);
+      levels_[k]->transfer().to_coarse(fine, halo, sum);
+      return sum;
+    };
+    held = coarse(held);
+    std::vector<char> held_now;
+    for (double& h : held) held_now.push_back(h > 0), h = h > 0;
+    if (!springs.empty()) {
+      // a spring of four children weighs as much as theirs together
+      const double strength = 4 * *std::max_element(springs.begin(), springs.end());
+      springs = coarse(springs);
+      for (double& s : springs) s = s > 0 ? strength : 0;
+    }
+    const bool coarsest = k + 1 == meshes_.size();
+    const WindowPlans plans =
+        coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
+    level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), held_now, springs,
+                    communicator);
+    if (coarsest) {
+      level.set_coarsest();
+    } else {
+      level.set_smoother(plans, parts.plain(), factors_);
+    }
+    finer = &parts;
+  }
+}
+
+}  // namespace cdca

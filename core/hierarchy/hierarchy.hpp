@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Cellular automata on coarser and coarser scales, split by the cracks on every one.
+#pragma once
+
+#include "core/hierarchy/coarse_parts.hpp"
+#include "core/hierarchy/coarsest_solve.hpp"
+#include "core/hierarchy/plain_cells.hpp"
+#include "core/hierarchy/transfer.hpp"
+#include "core/hierarchy/windows.hpp"
+#include "core/solver/scales.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace cdca {
+
+struct HierarchyShape {
+  WindowShape windows;
+  /// A scale with no more nodes than this is the coarsest.
+  GlobalId coarsest_nodes = 3500;
+};
+
+/// What is needed of the finest scale; borrowed, and to live as long as the hierarchy built on it.
+struct FinestScale {
+  const BasisContext& basis;
+  const ElasticMatrix& elastic;
+  const std::vector<char>& held;       ///< of every unknown
+  const std::vector<double>& springs;  ///< of every unknown, relative; may be empty
+};
+
+/// All scales of a body.
+///
+/// A coarse unknown is held when any of its children is: coarse moves vanish at supports, and no
+/// coarse element needs to know of them.
+class Hierarchy final : public Scales {
+ public:
+  explicit Hierarchy(const HierarchyShape& shape = {}) : shape_(shape) {}
+
+  /// Lays out the windows of the finest scale. Returns the cells that need rows of their own.
+  std::vector<GlobalId> plan(const BasisContext& basis);
+  /// Everything else, on the finest scale's cells. Meshes of coarse scales are kept from call to
+  /// call, and factors of windows that have not changed. Collective.
+  void build(const FinestScale& finest, const CellStiffness& cells);
+
+  std::size_t count() const override { return levels_.size(); }
+  const Scale& scale(std::size_t index) const override;
+  const WindowFactors& factors() const { return factors_; }
+
+ private:
+  class Level;
+  struct LevelDeleter {
+    void operator()(Level* level) const;
+  };
+  void lay_meshes(const LocalMesh& finest);
+  bool is_coarsest(const StructuredGrid& grid) const {
+    return grid.node_count() <= shape_.coarsest_nodes || std::min(grid.nx(), grid.ny()) <= 2;
+  }
+
+  HierarchyShape shape_;
+  WindowPlans finest_plans_;
+  std::vector<LocalMesh> meshes_;  ///< of the coarse scales
+  std::unique_ptr<ScaleParts> finest_parts_;
+  std::vector<std::unique_ptr<Level, LevelDeleter>> levels_;
+  WindowFactors factors_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// From one scale to the next: forces to coarser cells, their moves back to finer ones.
+#pragma once
+
+#include "core/base/halo.hpp"
+#include "core/hierarchy/coarse_parts.hpp"
+
+#include <span>
+#include <vector>
+
+namespace cdca {
+
+/// Bilinear interpolation P. A fine piece takes its displacement from the coarse pieces that
+/// contain it only, so none crosses a crack. Near-tip unknowns take part on the grid itself alone:
+/// their rows of P are empty.
+class Transfer {
+ public:
+  struct Scale {
+    const LocalMesh& mesh;
+    const CellUnknowns& unknowns;
+    const ScaleParts& parts;
+  };
+  Transfer(const Scale& fine, const LocalMesh& coarse_mesh, const CellUnknowns& coarse_unknowns,
+           const CoarseParts& coarse_parts);
+
+  /// coarse = P^T fine, of own cells. Collective.
+  void to_coarse(std::span<const double> fine, const Halo& halo, std::span<double> coarse) const;
+  /// fine += P coarse, on own cells. Collective.
+  void add_to_fine(std::span<double> coarse, const Halo& halo, std::span<double> fine) const;
+
+ private:
+  /// Consecutive plain fine cells of one row; their parents are consecutive plain coarse cells.
+  struct Run {
+    LocalId fine = 0;
+    LocalId count = 0;
+    bool odd = false;  ///< the first cell lies between two columns of coarse cells
+    LocalId below = 0;  ///< first parent in the row below or at the same height
+    LocalId above = 0;  ///< in the row above; the same as below for even rows
+  };
+  struct Entry {
+    LocalId fine;  ///< x; y follows
+    LocalId coarse;
+    double weight;
+  };
+  void find_runs(const LocalMesh& fine, const LocalMesh& coarse, const std::vector<char>& plain_fine,
+                 const std::vector<char>& plain_coarse, std::vector<LocalId>& others);
+  void add_entries(const Scale& fine, LocalId node, const LocalMesh& coarse,
+                   const CellUnknowns& unknowns, const CoarseParts& parts);
+
+  std::vector<Run> runs_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/hierarchy/window_plan.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace cdca {
+
+namespace {
+
+struct Box {
+  GridIndex low, high;  ///< both inside
+  bool apart_from(const Box& other, int gap) const {
+    return high.i + gap < other.low.i || other.high.i + gap < low.i ||
+           high.j + gap < other.low.j || other.high.j + gap < low.j;
+  }
+};
+
+Box box_of(const StructuredGrid& grid, const std::unordered_set<GlobalId>& nodes) {
+  Box box{{grid.nx(), grid.ny()}, {0, 0}};
+  for (const GlobalId id : nodes) {
+    const GridIndex n = grid.node_index(id);
+    box.low = {std::min(box.low.i, n.i), std::min(box.low.j, n.j)};
+    box.high = {std::max(box.high.i, n.i), std::max(box.high.j, n.j)};
+  }
+  return box;
+}
+
+bool is_wide(const Box& box) { return std::max(box.high.i - box.low.i, box.high.j - box.low.j) > 2; }
+
+/// Adds the nodes within `reach` of a node that lie in the box.
+void add_round(const StructuredGrid& grid, GridIndex n, int reach, const Box& box,
+               std::vector<GlobalId>& nodes) {
+  for (int j = std::max(n.j - reach, box.low.j); j <= std::min(n.j + reach, box.high.j); ++j) {
+    for (int i = std::max(n.i - reach, box.low.i); i <= std::min(n.i + reach, box.high.i); ++i) {
+      nodes.push_back(grid.node({i, j}));
+    }
+  }
+}
+
+void sort_once(std::vector<GlobalId>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Windows for the cells near cracks outside wide zones.
+void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
+               const WindowShape& shape, WindowPlans& plans) {
+  std::map<std::pair<int, int>, std::vector<GridIndex>> tiles;  // (row, column)
+  for (const GlobalId id : seeds) {
+    const GridIndex n = grid.node_index(id);
+    tiles[{n.j / shape.tile, n.i / shape.tile}].push_back(n);
+  }
+  for (const auto& [tile, own] : tiles) {
+    const auto [tj, ti] = tile;
+    const Box box{{std::max(0, ti * shape.tile - shape.overlap),
+                   std::max(0, tj * shape.tile - shape.overlap)},
+                  {std::min(grid.nx(), (ti + 1) * shape.tile - 1 + shape.overlap),
+                   std::min(grid.ny(), (tj + 1) * shape.tile - 1 + shape.overlap)}};
+    WindowPlan window;
+    window.colour = 2 * (tj % 2) + ti % 2;
+    for (int nj = tj - 1; nj <= tj + 1; ++nj) {
+      for (int ni = ti - 1; ni <= ti + 1; ++ni) {
+        const auto near = tiles.find({nj, ni});
+        if (near == tiles.end()) continue;
+        for (const GridIndex n : near->second)
+          add_round(grid, n, shape.reach, box, window.nodes);
+      }
+    }
+    sort_once(window.nodes);
+    plans.windows.push_back(std::move(window));
+  }
+}
+
+/// Windows for wide zones; their cells are taken out of the seeds.
+void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones,
+               std::vector<GlobalId>& seeds, WindowPlans& plans) {
+  std::vector<std::pair<Box, int>> placed;
+  std::set<GlobalId> inside;
+  const Box everything{{0, 0}, {grid.nx(), grid.ny()}};
+  for (const TipZone& zone : zones) {
+    const Box box = box_of(grid, zone.nodes);
+    if (!is_wide(box)) continue;
+    WindowPlan window;
+    for (const GlobalId id : zone.nodes)
+      add_round(grid, grid.node_index(id), 1, everything, window.nodes);
+    sort_once(window.nodes);
+    inside.insert(zone.nodes.begin(), zone.nodes.end());
+    // four colours are the squares'
+    window.colour = 4;
+    const auto clashes = [&](const auto& other) {
+      return other.second == window.colour && !other.first.apart_from(box, 3);
+    };
+    while (std::any_of(placed.begin(), placed.end(), clashes)) ++window.colour;
+    placed.emplace_back(box, window.colour);
+    plans.windows.push_back(std::move(window));
+  }
+  seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
+                             [&](GlobalId id) { return inside.count(id) > 0; }),
+              seeds.end());
+}
+
+}  // namespace
+
+WindowPlans plan_windows(const ElementParts& elements, const std::vector<TipZone>& zones,
+                         const WindowShape& shape) {
+  const StructuredGrid& grid = elements.grid();
+  WindowPlans plans;
+  for (const GlobalId id : elements.touched_elements()) {
+    for (const GridIndex n : grid.corners(grid.element_index(id)))
+      plans.near_cracks.push_back(grid.node(n));
+  }
+  for (const TipZone& zone : zones)
+    plans.near_cracks.insert(plans.near_cracks.end(), zone.nodes.begin(), zone.nodes.end());
+  sort_once(plans.near_cracks);
+  std::vector<GlobalId> seeds = plans.near_cracks;
+  add_zones(grid, zones, seeds, plans);
+  add_tiles(grid, seeds, shape, plans);
+  for (const WindowPlan& w : plans.windows) plans.colours = std::max(plans.colours, w.colour + 1);
+  return plans;
+}
+
+}  // namespace cdca
