@@ -27,6 +27,10 @@ class CellSystem {
   /// ghosts are not read: their owners send the forces instead. Collective.
   virtual void apply(std::span<const double> displacements, std::span<double> forces) const = 0;
 
+  /// residual = forces - K displacements on own cells, 0 for held unknowns. Collective.
+  virtual void set_residual(std::span<const double> forces, std::span<const double> displacements,
+                            std::span<double> residual) const = 0;
+
   /// One sweep of the rule (2.4.3, 1-3) over this rank's cells, one after the other: the
   /// out-of-balance force f_i moves cell i by omega K_i^-1 f_i, neighbours held, and the move
   /// changes the forces of the cell and of its neighbours by -K_ki du_i, ghosts included.
@@ -47,10 +51,10 @@ class CellSystem {
 
   /// Inner product over all ranks. Collective.
   double dot(std::span<const double> a, std::span<const double> b) const {
-    double sum = 0.0;
-    const auto n = std::size_t(owned());
-    for (std::size_t k = 0; k < n; ++k) sum += a[k] * b[k];
-    return communicator().sum(sum);
+    // Eigen adds in several lanes at once, which plain loops may not
+    using Values = Eigen::Map<const Eigen::VectorXd>;
+    const auto n = Eigen::Index(owned());
+    return communicator().sum(Values(a.data(), n).dot(Values(b.data(), n)));
   }
 };
 

@@ -90,6 +90,14 @@ StiffnessRows compress(const std::vector<Entry>& entries, LocalId count) {
 
 }  // namespace
 
+double StiffnessRows::times(std::size_t row, std::span<const double> x, LocalId end) const {
+  double sum = 0.0;
+  for (std::size_t k = start[row]; k < start[row + 1]; ++k) {
+    if (column[k] < end) sum += value[k] * x[std::size_t(column[k])];
+  }
+  return sum;
+}
+
 std::ptrdiff_t StiffnessRows::find(LocalId u) const {
   const auto it = std::lower_bound(unknown.begin(), unknown.end(), u);
   return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
@@ -256,16 +264,25 @@ void CellStiffness::order_items() {
 }
 
 void CellStiffness::apply(std::span<const double> x, std::span<double> forces) const {
-  std::fill(forces.begin(), forces.end(), 0.0);
+  // every own unknown belongs to a run or has a row
+  std::fill(forces.begin() + owned_, forces.end(), 0.0);
   regular_.apply(x, forces);
   for (std::size_t r = 0; r < rows_.unknown.size(); ++r) {
-    double sum = 0.0;
-    for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
-      if (rows_.column[k] < owned_) sum += rows_.value[k] * x[std::size_t(rows_.column[k])];
-    }
-    forces[std::size_t(rows_.unknown[r])] = sum;
+    forces[std::size_t(rows_.unknown[r])] = rows_.times(r, x, owned_);
   }
   halo_.add_forces(forces);
+}
+
+void CellStiffness::set_residual(std::span<const double> forces, std::span<const double> x,
+                                 std::span<double> residual) const {
+  std::fill(residual.begin() + owned_, residual.end(), 0.0);
+  regular_.set_residual(forces, x, residual);
+  for (std::size_t r = 0; r < rows_.unknown.size(); ++r) {
+    const auto u = std::size_t(rows_.unknown[r]);
+    residual[u] = (rows_.unknown[r] < owned_ ? forces[u] : 0.0) - rows_.times(r, x, owned_);
+  }
+  halo_.add_forces(residual);
+  clear_held(residual);
 }
 
 void CellStiffness::move_group(const CellGroup& group, double omega, std::span<double> forces,

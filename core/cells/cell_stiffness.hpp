@@ -21,6 +21,8 @@ struct StiffnessRows {
   std::vector<LocalId> column;
   std::vector<double> value;
 
+  /// Sum of value times x of one row, over the columns below `end`.
+  double times(std::size_t row, std::span<const double> x, LocalId end) const;
   /// Row number of an unknown, or -1.
   std::ptrdiff_t find(LocalId unknown) const;
 };
@@ -45,6 +47,8 @@ class CellStiffness final : public CellSystem {
   const Halo& halo() const { return halo_; }
 
   void apply(std::span<const double> displacements, std::span<double> forces) const override;
+  void set_residual(std::span<const double> forces, std::span<const double> displacements,
+                    std::span<double> residual) const override;
   void sweep(SweepDirection direction, double omega, std::span<double> forces,
              std::span<double> displacements) const override;
   void sweep_all(double omega, std::span<double> forces,

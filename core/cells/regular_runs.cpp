@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/regular_runs.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <Eigen/LU>
 
 namespace cdca {
@@ -35,6 +37,7 @@ RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular
     }
   }
   inverse_ = diagonal().inverse();
+  find_mirrored();
 }
 
 Eigen::Matrix2d RegularRuns::diagonal() const {
@@ -49,25 +52,67 @@ std::int64_t RegularRuns::cells() const {
   return sum;
 }
 
-void RegularRuns::apply(std::span<const double> x, std::span<double> forces) const {
-  for (const RegularRun& run : runs_) {
-    const double* rows[3] = {&x[2 * std::size_t(run.below) - 2], &x[2 * std::size_t(run.node) - 2],
-                             &x[2 * std::size_t(run.above) - 2]};
-    double* f = &forces[2 * std::size_t(run.node)];
-    const auto values = 2 * std::ptrdiff_t(run.count);
-    for (std::ptrdiff_t n = 0; n < values; n += 2) {
-      double fx = 0.0, fy = 0.0;
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t m = 0; m < 6; ++m) {
-          const double v = rows[r][n + std::ptrdiff_t(m)];
-          fx += stencil_[r][0][m] * v;
-          fy += stencil_[r][1][m] * v;
-        }
+void RegularRuns::find_mirrored() {
+  const auto at = [this](std::size_t row, std::size_t column) {
+    return Pair(stencil_[row][0][2 * column], stencil_[row][1][2 * column + 1]);
+  };
+  mirrored_ = {at(1, 1), at(1, 2), at(2, 1), at(2, 2), stencil_[2][0][5]};
+  // what the short form says of every neighbour must be what the long one says
+  const double tolerance = 1e-10 * mirrored_.centre.maxCoeff();
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      const Pair expected = row == 1 ? (column == 1 ? mirrored_.centre : mirrored_.beside)
+                                     : (column == 1 ? mirrored_.upright : mirrored_.corner);
+      const double sign = (double(row) - 1) * (double(column) - 1);
+      const Pair cross(stencil_[row][0][2 * column + 1], stencil_[row][1][2 * column]);
+      if (((at(row, column) - expected).abs() > tolerance).any() ||
+          ((cross - sign * mirrored_.cross).abs() > tolerance).any()) {
+        throw SolveError("the stiffness of an element is not symmetric about its axes");
       }
-      f[n] = fx;
-      f[n + 1] = fy;
     }
   }
+}
+
+/// Calls store(k, force) with the place of every cell's x among the unknowns and its force K x.
+template <class Store>
+void RegularRuns::for_each_force(const double* x, const Store& store) const {
+  using Place = Eigen::Map<const Pair>;
+  const Mirrored m = mirrored_;
+  for (const RegularRun& run : runs_) {
+    const double *below = x + 2 * std::ptrdiff_t(run.below), *same = x + 2 * std::ptrdiff_t(run.node),
+                 *above = x + 2 * std::ptrdiff_t(run.above);
+    const std::ptrdiff_t first = 2 * std::ptrdiff_t(run.node), count = 2 * std::ptrdiff_t(run.count);
+    // sums and differences of the rows above and below: left, here, right
+    Pair sum_left = Place(above - 2) + Place(below - 2), sum = Place(above) + Place(below);
+    Pair turn_left = Place(above - 2) - Place(below - 2), turn = Place(above) - Place(below);
+    for (std::ptrdiff_t k = 0; k < count; k += 2) {
+      const Pair sum_right = Place(above + k + 2) + Place(below + k + 2);
+      const Pair turn_right = Place(above + k + 2) - Place(below + k + 2);
+      const Pair across = turn_right - turn_left;
+      store(first + k, m.centre * Place(same + k) +
+                           m.beside * (Place(same + k - 2) + Place(same + k + 2)) +
+                           m.upright * sum + m.corner * (sum_left + sum_right) +
+                           m.cross * Pair(across.reverse()));
+      sum_left = sum, sum = sum_right;
+      turn_left = turn, turn = turn_right;
+    }
+  }
+}
+
+void RegularRuns::apply(std::span<const double> x, std::span<double> forces) const {
+  double* out = forces.data();
+  for_each_force(x.data(), [out](std::ptrdiff_t k, const Pair& force) {
+    Eigen::Map<Pair>(out + k) = force;
+  });
+}
+
+void RegularRuns::set_residual(std::span<const double> forces, std::span<const double> x,
+                               std::span<double> residual) const {
+  const double* in = forces.data();
+  double* out = residual.data();
+  for_each_force(x.data(), [in, out](std::ptrdiff_t k, const Pair& force) {
+    Eigen::Map<Pair>(out + k) = Eigen::Map<const Pair>(in + k) - force;
+  });
 }
 
 void RegularRuns::sweep(const RegularRun& run, bool forward, double omega, std::span<double> forces,

@@ -32,6 +32,9 @@ class RegularRuns {
   Eigen::Matrix2d diagonal() const;
   /// forces = K x for the cells of all runs.
   void apply(std::span<const double> x, std::span<double> forces) const;
+  /// residual = forces - K x for the cells of all runs.
+  void set_residual(std::span<const double> forces, std::span<const double> x,
+                    std::span<double> residual) const;
   /// The rule for one run, in the direction of growing node numbers or against it.
   void sweep(const RegularRun& run, bool forward, double omega, std::span<double> forces,
              std::span<double> displacements) const;
@@ -39,9 +42,21 @@ class RegularRuns {
  private:
   /// Row r (below, same, above), component of the force, then x and y of the three cells there.
   using Stencil = std::array<std::array<std::array<double, 6>, 2>, 3>;
+  using Pair = Eigen::Array2d;  ///< x and y of one cell
+  /// The same stencil, mirrored in x and y onto itself: x acts on x, and y on y, alike from both
+  /// sides; x on y, and y on x, from the corners only, with changing signs.
+  struct Mirrored {
+    Pair centre, beside, upright, corner;
+    double cross = 0.0;  ///< of the upper right corner
+  };
+
+  void find_mirrored();
+  template <class Store>
+  void for_each_force(const double* x, const Store& store) const;
 
   std::vector<RegularRun> runs_;
   Stencil stencil_{};
+  Mirrored mirrored_;
   Eigen::Matrix2d inverse_ = Eigen::Matrix2d::Zero();
 };
 

@@ -42,6 +42,9 @@ class Hierarchy::Level final : public Scale {
   void move_plain_cells(std::span<const double> forces, std::span<double> moves) const override {
     plain_.move(forces, moves);
   }
+  void start_plain_cells(std::span<const double> forces, std::span<double> moves) const override {
+    plain_.start(forces, moves);
+  }
   void move_windows(SweepDirection direction, std::span<double> forces,
                     std::span<double> moves) const override {
     windows_->move(direction, forces, moves);

@@ -26,10 +26,17 @@ PlainCells::PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns,
     const LocalId n = mesh.find_node(mesh.grid().node_index(id));
     if (n >= 0 && mesh.owns(n)) done[std::size_t(n)] = 1;
   }
+  LocalId end = 0;
+  const auto close_gap = [&](LocalId next) {
+    if (next > end) gaps_.push_back({end, next - end});
+  };
   for (const RegularRun& run : cells.regular().runs()) {
-    runs_.push_back({run.node, run.count});
+    runs_.push_back({2 * run.node, 2 * run.count});
+    close_gap(2 * run.node);
+    end = 2 * (run.node + run.count);
     std::fill_n(done.begin() + run.node, run.count, char(1));
   }
+  close_gap(cells.owned());
   std::vector<char> held(std::size_t(unknowns.count()), 0);
   for (const LocalId u : cells.held()) held[std::size_t(u)] = 1;
   const StiffnessRows& rows = cells.rows();
@@ -53,22 +60,43 @@ PlainCells::PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns,
   }
 }
 
-void PlainCells::move(std::span<const double> forces, std::span<double> moves) const {
-  const double xx = inverse_(0, 0), xy = inverse_(0, 1), yy = inverse_(1, 1);
+template <class Store>
+void PlainCells::for_each_regular(const double* forces, const Store& store) const {
+  using Pair = Eigen::Array2d;
+  const Pair own(inverse_(0, 0), inverse_(1, 1));
+  const double cross = inverse_(0, 1);
   for (const Run& run : runs_) {
-    const double* f = &forces[2 * std::size_t(run.node)];
-    double* u = &moves[2 * std::size_t(run.node)];
-    for (std::ptrdiff_t k = 0; k < 2 * std::ptrdiff_t(run.count); k += 2) {
-      u[k] += xx * f[k] + xy * f[k + 1];
-      u[k + 1] += xy * f[k] + yy * f[k + 1];
+    for (std::ptrdiff_t k = run.first; k < run.first + run.count; k += 2) {
+      const Pair force = Eigen::Map<const Pair>(forces + k);
+      store(k, Pair(own * force + cross * Pair(force.reverse())));
     }
   }
+}
+
+void PlainCells::move_others(std::span<const double> forces, std::span<double> moves) const {
   for (const Cell& cell : cells_) {
     const auto u = std::size_t(cell.unknown);
     const Vec2 move = cell.inverse * Vec2(forces[u], forces[u + 1]);
     moves[u] += move.x();
     moves[u + 1] += move.y();
   }
+}
+
+void PlainCells::move(std::span<const double> forces, std::span<double> moves) const {
+  double* out = moves.data();
+  for_each_regular(forces.data(), [out](std::ptrdiff_t k, const Eigen::Array2d& move) {
+    Eigen::Map<Eigen::Array2d>(out + k) += move;
+  });
+  move_others(forces, moves);
+}
+
+void PlainCells::start(std::span<const double> forces, std::span<double> moves) const {
+  double* out = moves.data();
+  for_each_regular(forces.data(), [out](std::ptrdiff_t k, const Eigen::Array2d& move) {
+    Eigen::Map<Eigen::Array2d>(out + k) = move;
+  });
+  for (const Run& gap : gaps_) std::fill_n(moves.begin() + gap.first, gap.count, 0.0);
+  move_others(forces, moves);
 }
 
 }  // namespace cdca

@@ -18,6 +18,8 @@ class PlainCells {
              const PlainStiffness& plain, const std::vector<GlobalId>& near_cracks);
 
   void move(std::span<const double> forces, std::span<double> moves) const;
+  /// As move(), with all own moves 0 before.
+  void start(std::span<const double> forces, std::span<double> moves) const;
   double damping() const { return omega_; }
 
  private:
@@ -25,11 +27,18 @@ class PlainCells {
     LocalId unknown;          ///< x; y follows
     Eigen::Matrix2d inverse;  ///< times omega; rows of held unknowns are 0
   };
+  /// Consecutive own unknowns.
   struct Run {
-    LocalId node;
+    LocalId first;
     LocalId count;
   };
+  /// Calls store(place, move) for every cell of the runs.
+  template <class Store>
+  void for_each_regular(const double* forces, const Store& store) const;
+  void move_others(std::span<const double> forces, std::span<double> moves) const;
+
   std::vector<Run> runs_;
+  std::vector<Run> gaps_;  ///< between the runs
   std::vector<Cell> cells_;
   Eigen::Matrix2d inverse_ = Eigen::Matrix2d::Zero();  ///< of regular cells, times omega
   double omega_ = 1.0;

@@ -92,32 +92,32 @@ void Transfer::add_entries(const Scale& fine, LocalId node, const LocalMesh& coa
   }
 }
 
+void Transfer::gather_row(const Run& run, double share, const double* fine, double* coarse) {
+  const auto count = 2 * std::ptrdiff_t(run.count);
+  Pair half = Pair::Zero();  // of the fine cell on the left
+  std::ptrdiff_t k = 0, c = 0;
+  if (run.odd) {
+    half = 0.5 * ConstPlace(fine);
+    Place(coarse) += share * half;
+    k = c = 2;
+  }
+  for (; k + 2 < count; k += 4, c += 2) {
+    const Pair next = 0.5 * ConstPlace(fine + k + 2);
+    Place(coarse + c) += share * (half + ConstPlace(fine + k) + next);
+    half = next;
+  }
+  if (k < count) half += ConstPlace(fine + k);
+  Place(coarse + c) += share * half;
+}
+
 void Transfer::to_coarse(std::span<const double> fine, const Halo& halo,
                          std::span<double> coarse) const {
   std::fill(coarse.begin(), coarse.end(), 0.0);
   for (const Run& run : runs_) {
-    const double* f = &fine[2 * std::size_t(run.fine)];
-    const double share = run.above == run.below ? 1.0 : 0.5;
-    double* below = &coarse[2 * std::size_t(run.below)];
-    double* above = &coarse[2 * std::size_t(run.above)];
-    LocalId k = 0, c = 0;
-    const auto add = [&](LocalId at, double weight, const double* value) {
-      for (std::size_t d = 0; d < 2; ++d) {
-        below[2 * std::size_t(at) + d] += weight * value[d];
-        if (share < 1.0) above[2 * std::size_t(at) + d] += weight * value[d];
-      }
-    };
-    if (run.odd) {
-      add(0, 0.5 * share, f);
-      add(1, 0.5 * share, f);
-      k = c = 1;
-    }
-    for (; k < run.count; k += 2, ++c) {
-      add(c, share, f + 2 * k);
-      if (k + 1 >= run.count) break;
-      add(c, 0.5 * share, f + 2 * k + 2);
-      add(c + 1, 0.5 * share, f + 2 * k + 2);
-    }
+    const double* f = fine.data() + 2 * std::ptrdiff_t(run.fine);
+    const bool between = run.above != run.below;
+    gather_row(run, between ? 0.5 : 1.0, f, coarse.data() + 2 * std::ptrdiff_t(run.below));
+    if (between) gather_row(run, 0.5, f, coarse.data() + 2 * std::ptrdiff_t(run.above));
   }
   for (const Entry& e : entries_) {
     coarse[std::size_t(e.coarse)] += e.weight * fine[std::size_t(e.fine)];
@@ -126,28 +126,43 @@ void Transfer::to_coarse(std::span<const double> fine, const Halo& halo,
   halo.add_forces(coarse);
 }
 
+/// coarse(c): the displacement at column c of coarse cells, at the height of the fine row.
+template <class Coarse>
+void Transfer::spread_row(const Run& run, const Coarse& coarse, double* fine) {
+  const auto count = 2 * std::ptrdiff_t(run.count);
+  std::ptrdiff_t k = 0, c = 0;
+  Pair here = coarse(0);
+  if (run.odd) {
+    const Pair next = coarse(2);
+    Place(fine) += 0.5 * (here + next);
+    here = next;
+    k = c = 2;
+  }
+  for (; k + 2 < count; k += 4, c += 2) {
+    const Pair next = coarse(c + 2);
+    Place(fine + k) += here;
+    Place(fine + k + 2) += 0.5 * (here + next);
+    here = next;
+  }
+  if (k < count) Place(fine + k) += here;
+}
+
 void Transfer::add_to_fine(std::span<double> coarse, const Halo& halo,
                            std::span<double> fine) const {
   halo.copy_state(coarse);
   for (const Run& run : runs_) {
-    double* f = &fine[2 * std::size_t(run.fine)];
-    const double share = run.above == run.below ? 1.0 : 0.5;
-    const double* below = &coarse[2 * std::size_t(run.below)];
-    const double* above = &coarse[2 * std::size_t(run.above)];
-    const auto value = [&](LocalId at, std::size_t d) {
-      const double v = below[2 * std::size_t(at) + d];
-      return share < 1.0 ? 0.5 * (v + above[2 * std::size_t(at) + d]) : v;
-    };
-    LocalId k = 0, c = 0;
-    if (run.odd) {
-      for (std::size_t d = 0; d < 2; ++d) f[d] += 0.5 * (value(0, d) + value(1, d));
-      k = c = 1;
-    }
-    for (; k < run.count; k += 2, ++c) {
-      for (std::size_t d = 0; d < 2; ++d) f[2 * std::size_t(k) + d] += value(c, d);
-      if (k + 1 >= run.count) break;
-      for (std::size_t d = 0; d < 2; ++d)
-        f[2 * std::size_t(k) + 2 + d] += 0.5 * (value(c, d) + value(c + 1, d));
+    double* f = fine.data() + 2 * std::ptrdiff_t(run.fine);
+    const double* below = coarse.data() + 2 * std::ptrdiff_t(run.below);
+    const double* above = coarse.data() + 2 * std::ptrdiff_t(run.above);
+    if (run.above == run.below) {
+      spread_row(run, [=](std::ptrdiff_t c) { return Pair(ConstPlace(below + c)); }, f);
+    } else {
+      spread_row(
+          run,
+          [=](std::ptrdiff_t c) {
+            return Pair(0.5 * (ConstPlace(below + c) + ConstPlace(above + c)));
+          },
+          f);
     }
   }
   for (const Entry& e : entries_) {

@@ -42,6 +42,12 @@ class Transfer {
     LocalId coarse;
     double weight;
   };
+  using Pair = Eigen::Array2d;  ///< x and y of one cell
+  using Place = Eigen::Map<Pair>;
+  using ConstPlace = Eigen::Map<const Pair>;
+  static void gather_row(const Run& run, double share, const double* fine, double* coarse);
+  template <class Coarse>
+  static void spread_row(const Run& run, const Coarse& coarse, double* fine);
   void find_runs(const LocalMesh& fine, const LocalMesh& coarse, const std::vector<char>& plain_fine,
                  const std::vector<char>& plain_coarse, std::vector<LocalId>& others);
   void add_entries(const Scale& fine, LocalId node, const LocalMesh& coarse,

@@ -59,20 +59,28 @@ double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
   return (a + nearest_fraction(a, b, x) * (b - a) - x).norm();
 }
 
+/// Does a segment prolong the straight crack behind the tip? To it, that is no other crack.
+bool prolongs(const TipFrame& frame, const Vec2& a, const Vec2& b, double limit) {
+  const Vec2 p = frame.local(a), q = frame.local(b);
+  return std::max(std::abs(p.y()), std::abs(q.y())) < limit && std::max(p.x(), q.x()) < limit;
+}
+
 /// How far the domain of a tip may reach without meeting anything.
 double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks,
                    const TipZone& zone) {
   const Vec2 x = zone.frame.tip();
   const Vec2 low = x - grid.origin(), high = grid.origin() + grid.size() - x;
-  const Crack& own = cracks[std::size_t(zone.crack)];
-  const bool straight_to_rim =
-      own.segments() == 1 && own.ends[std::size_t(1 - zone.end)].state == TipState::boundary;
-  double r = straight_to_rim ? 1e300 : zone.frame.straight_length();
-  r = std::min({r, low.minCoeff(), high.minCoeff()});
-  for (std::size_t c = 0; c < cracks.size(); ++c) {
-    if (int(c) == zone.crack) continue;
-    for (std::size_t k = 0; k < cracks[c].segments(); ++k) {
-      r = std::min(r, distance_to_segment(cracks[c].points[k], cracks[c].points[k + 1], x));
+  const double limit = 1e-5 * grid.smallest_side();
+  double r = std::min(low.minCoeff(), high.minCoeff());
+  for (const Crack& crack : cracks) {
+    for (std::size_t k = 0; k < crack.segments(); ++k) {
+      const Vec2 &a = crack.points[k], &b = crack.points[k + 1];
+      if (!prolongs(zone.frame, a, b, limit)) r = std::min(r, distance_to_segment(a, b, x));
+    }
+    for (int end = 0; end < 2; ++end) {
+      const double away = (crack.end_point(end) - x).norm();
+      if (crack.ends[std::size_t(end)].state == TipState::active && away > limit)
+        r = std::min(r, away);
     }
   }
   return 0.999 * r;

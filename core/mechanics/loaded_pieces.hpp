@@ -12,17 +12,21 @@
 namespace cdca {
 
 /// One bit for every side with a displacement or a traction. A body with fewer than two such sides
-/// in all counts its supports and forces at points as well.
+/// in all counts its supports and forces at points as well. Another bit tells that forces act:
+/// a traction that is not zero, or a force at a point.
 class LoadedPieces {
  public:
+  static constexpr std::uint64_t forces = std::uint64_t(1) << 8;
+  static constexpr std::uint64_t boundaries = ~forces;
+
   LoadedPieces(const BasisContext& context, const std::vector<BoundarySpec>& blocks);
 
   /// Bits of a piece of an own cell.
   std::uint64_t marks(LocalId node, int piece) const;
 
  private:
-  void mark_side(const BasisContext& context, Side side, std::uint64_t bit);
-  void mark_point(const BasisContext& context, const Vec2& at, std::uint64_t bit);
+  void mark_side(const BasisContext& context, Side side, std::uint64_t bits);
+  void mark_point(const BasisContext& context, const Vec2& at, std::uint64_t bits);
 
   std::unordered_map<std::uint64_t, std::uint64_t> marks_;
 };

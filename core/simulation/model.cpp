@@ -110,10 +110,13 @@ std::vector<double> Model::springs() const {
 }
 
 bool Model::joins_loaded_boundaries() const {
+  bool joined = false;
   for (const Body& body : bodies_->list()) {
-    if (std::popcount(body.marks) > 1) return true;
+    // nothing balances the forces on a part that has come off
+    if (!body.held && (body.marks & LoadedPieces::forces)) return false;
+    joined = joined || (body.held && std::popcount(body.marks & LoadedPieces::boundaries) > 1);
   }
-  return false;
+  return joined;
 }
 
 void Model::refuse_hidden_cracks() const {

@@ -39,7 +39,8 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
-  /// A body, and not only pieces cut off it, still joins two loaded boundaries.
+  /// A body, and not only pieces cut off it, still joins two loaded boundaries, and no part on which
+  /// forces act has come off.
   bool joins_loaded_boundaries() const;
 
   const CaseSpec& spec() const { return spec_; }

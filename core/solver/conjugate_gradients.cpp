@@ -6,17 +6,42 @@
 
 namespace cdca {
 
+namespace {
+
+using Values = Eigen::Map<Eigen::VectorXd>;
+using ConstValues = Eigen::Map<const Eigen::VectorXd>;
+
+/// u += alpha direction, residual -= alpha product; returns the new |residual|^2 of this rank. In
+/// blocks that stay in the cache, so that the residual is read once.
+double advance(double alpha, const ConstValues& direction, const ConstValues& product, Values& u,
+               Values& residual) {
+  constexpr Eigen::Index block = 1024;
+  double sum = 0.0;
+  for (Eigen::Index first = 0; first < u.size(); first += block) {
+    const Eigen::Index count = std::min(block, u.size() - first);
+    u.segment(first, count) += alpha * direction.segment(first, count);
+    auto part = residual.segment(first, count);
+    part -= alpha * product.segment(first, count);
+    sum += part.squaredNorm();
+  }
+  return sum;
+}
+
+}  // namespace
+
 SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner& precondition,
                                  std::span<const double> forces, std::span<double> u, double scale,
                                  const SolverOptions& options) {
   using Vector = std::vector<double>;
-  const auto own = std::size_t(system.owned()), all = std::size_t(system.count());
+  const auto all = std::size_t(system.count());
+  const auto own = Eigen::Index(system.owned());
   Vector residual(all, 0.0), move(all, 0.0), direction(all, 0.0), product(all, 0.0);
+  Values own_u(u.data(), own), own_residual(residual.data(), own);
+  Values own_direction(direction.data(), own);
+  const ConstValues own_move(move.data(), own), own_product(product.data(), own);
   SolverReport report;
   const auto set_residual = [&] {
-    system.apply(u, residual);
-    for (std::size_t k = 0; k < own; ++k) residual[k] = forces[k] - residual[k];
-    system.clear_held(residual);
+    system.set_residual(forces, u, residual);
     report.residual = std::sqrt(system.dot(residual, residual)) / scale;
   };
   const int limit = options.max_iterations > 0 ? options.max_iterations : 200000;
@@ -24,24 +49,23 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
   // rounding makes the recurrence drift from the true residual: start again from the latter
   for (int restart = 0; restart < 5 && report.residual > options.tolerance; ++restart) {
     double energy = 0.0;
-    std::fill(direction.begin(), direction.end(), 0.0);
     while (report.residual > options.tolerance && report.iterations < limit) {
       precondition(residual, product, move);
       const double next = system.dot(residual, move);
-      const double beta = energy > 0.0 ? next / energy : 0.0;
+      if (energy > 0.0) {
+        own_direction = own_move + (next / energy) * own_direction;
+      } else {
+        own_direction = own_move;
+      }
       energy = next;
-      for (std::size_t k = 0; k < own; ++k) direction[k] = move[k] + beta * direction[k];
       system.apply(direction, product);
       system.clear_held(product);
       const double curvature = system.dot(direction, product);
       ++report.iterations;
       if (!(curvature > 0.0)) break;
-      const double alpha = energy / curvature;
-      for (std::size_t k = 0; k < own; ++k) {
-        u[k] += alpha * direction[k];
-        residual[k] -= alpha * product[k];
-      }
-      report.residual = std::sqrt(system.dot(residual, residual)) / scale;
+      const double sum = advance(energy / curvature, ConstValues(direction.data(), own),
+                                 own_product, own_u, own_residual);
+      report.residual = std::sqrt(system.communicator().sum(sum)) / scale;
     }
     set_residual();
     if (report.iterations >= limit || !std::isfinite(report.residual)) break;

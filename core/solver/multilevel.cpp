@@ -3,8 +3,6 @@
 
 #include "core/solver/conjugate_gradients.hpp"
 
-#include <algorithm>
-
 namespace cdca {
 
 VCycle::VCycle(const Scales& scales) : scales_(scales), vectors_(scales.count()) {
@@ -27,15 +25,8 @@ void VCycle::cycle(std::size_t index, std::span<const double> forces, std::span<
     return;
   }
   const CellSystem& cells = scale.cells();
-  const auto own = std::size_t(cells.owned());
-  const auto set_residual = [&] {
-    cells.apply(moves, residual);
-    for (std::size_t k = 0; k < own; ++k) residual[k] = forces[k] - residual[k];
-    cells.clear_held(residual);
-  };
-  std::fill(moves.begin(), moves.end(), 0.0);
-  scale.move_plain_cells(forces, moves);
-  set_residual();
+  scale.start_plain_cells(forces, moves);
+  cells.set_residual(forces, moves, residual);
   scale.move_windows(SweepDirection::forward, residual, moves);
   cells.clear_held(residual);
 
@@ -46,7 +37,7 @@ void VCycle::cycle(std::size_t index, std::span<const double> forces, std::span<
   scale.add_moves_of_coarser(coarser.moves, moves);
   cells.clear_held(moves);
 
-  set_residual();
+  cells.set_residual(forces, moves, residual);
   scale.move_windows(SweepDirection::backward, residual, moves);
   scale.move_plain_cells(residual, moves);
 }

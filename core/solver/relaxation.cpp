@@ -16,10 +16,7 @@ class Relaxation final : public EquilibriumSolver {
   SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
                      double scale) const override {
     std::vector<double> residual(std::size_t(system.count()), 0.0);
-    system.apply(u, residual);
-    for (std::size_t k = 0; k < std::size_t(system.owned()); ++k)
-      residual[k] = forces[k] - residual[k];
-    system.clear_held(residual);
+    system.set_residual(forces, u, residual);
     SolverReport report;
     const int limit = options_.max_iterations > 0 ? options_.max_iterations : 1000000;
     for (;; ++report.iterations) {
