@@ -79,9 +79,11 @@ void RegularRuns::for_each_force(const double* x, const Store& store) const {
   using Place = Eigen::Map<const Pair>;
   const Mirrored m = mirrored_;
   for (const RegularRun& run : runs_) {
-    const double *below = x + 2 * std::ptrdiff_t(run.below), *same = x + 2 * std::ptrdiff_t(run.node),
+    const double *below = x + 2 * std::ptrdiff_t(run.below),
+                 *same = x + 2 * std::ptrdiff_t(run.node),
                  *above = x + 2 * std::ptrdiff_t(run.above);
-    const std::ptrdiff_t first = 2 * std::ptrdiff_t(run.node), count = 2 * std::ptrdiff_t(run.count);
+    const std::ptrdiff_t first = 2 * std::ptrdiff_t(run.node),
+                         count = 2 * std::ptrdiff_t(run.count);
     // sums and differences of the rows above and below: left, here, right
     Pair sum_left = Place(above - 2) + Place(below - 2), sum = Place(above) + Place(below);
     Pair turn_left = Place(above - 2) - Place(below - 2), turn = Place(above) - Place(below);
@@ -101,9 +103,8 @@ void RegularRuns::for_each_force(const double* x, const Store& store) const {
 
 void RegularRuns::apply(std::span<const double> x, std::span<double> forces) const {
   double* out = forces.data();
-  for_each_force(x.data(), [out](std::ptrdiff_t k, const Pair& force) {
-    Eigen::Map<Pair>(out + k) = force;
-  });
+  for_each_force(x.data(),
+                 [out](std::ptrdiff_t k, const Pair& force) { Eigen::Map<Pair>(out + k) = force; });
 }
 
 void RegularRuns::set_residual(std::span<const double> forces, std::span<const double> x,

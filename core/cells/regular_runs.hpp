@@ -21,6 +21,9 @@ struct RegularRun {
 
 class RegularRuns {
  public:
+  /// Row r (below, same, above), component of the force, then x and y of the three cells there.
+  using Stencil = std::array<std::array<std::array<double, 6>, 2>, 3>;
+
   RegularRuns() = default;
   /// regular: for every own node. All nine cells of a regular cell's stencil are own and plain.
   RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular,
@@ -28,6 +31,7 @@ class RegularRuns {
 
   const std::vector<RegularRun>& runs() const { return runs_; }
   std::int64_t cells() const;
+  const Stencil& stencil() const { return stencil_; }
   /// K_i of a regular cell.
   Eigen::Matrix2d diagonal() const;
   /// forces = K x for the cells of all runs.
@@ -40,8 +44,6 @@ class RegularRuns {
              std::span<double> displacements) const;
 
  private:
-  /// Row r (below, same, above), component of the force, then x and y of the three cells there.
-  using Stencil = std::array<std::array<std::array<double, 6>, 2>, 3>;
   using Pair = Eigen::Array2d;  ///< x and y of one cell
   /// The same stencil, mirrored in x and y onto itself: x acts on x, and y on y, alike from both
   /// sides; x on y, and y on x, from the corners only, with changing signs.

@@ -18,7 +18,8 @@ std::vector<Entry> entries_of_all(Communicator& communicator, std::vector<Entry>
   if (communicator.size() == 1) return mine;
   Bytes bytes, all;
   pack(bytes, std::span<const Entry>(mine));
-  for (const Bytes& part : communicator.gather(bytes)) all.insert(all.end(), part.begin(), part.end());
+  for (const Bytes& part : communicator.gather(bytes))
+    all.insert(all.end(), part.begin(), part.end());
   communicator.broadcast(all);
   return unpack<Entry>(all);
 }

@@ -155,7 +155,8 @@ void Transfer::add_to_fine(std::span<double> coarse, const Halo& halo,
     const double* below = coarse.data() + 2 * std::ptrdiff_t(run.below);
     const double* above = coarse.data() + 2 * std::ptrdiff_t(run.above);
     if (run.above == run.below) {
-      spread_row(run, [=](std::ptrdiff_t c) { return Pair(ConstPlace(below + c)); }, f);
+      spread_row(
+          run, [=](std::ptrdiff_t c) { return Pair(ConstPlace(below + c)); }, f);
     } else {
       spread_row(
           run,

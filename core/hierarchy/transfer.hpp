@@ -33,7 +33,7 @@ class Transfer {
   struct Run {
     LocalId fine = 0;
     LocalId count = 0;
-    bool odd = false;  ///< the first cell lies between two columns of coarse cells
+    bool odd = false;   ///< the first cell lies between two columns of coarse cells
     LocalId below = 0;  ///< first parent in the row below or at the same height
     LocalId above = 0;  ///< in the row above; the same as below for even rows
   };
@@ -48,8 +48,9 @@ class Transfer {
   static void gather_row(const Run& run, double share, const double* fine, double* coarse);
   template <class Coarse>
   static void spread_row(const Run& run, const Coarse& coarse, double* fine);
-  void find_runs(const LocalMesh& fine, const LocalMesh& coarse, const std::vector<char>& plain_fine,
-                 const std::vector<char>& plain_coarse, std::vector<LocalId>& others);
+  void find_runs(const LocalMesh& fine, const LocalMesh& coarse,
+                 const std::vector<char>& plain_fine, const std::vector<char>& plain_coarse,
+                 std::vector<LocalId>& others);
   void add_entries(const Scale& fine, LocalId node, const LocalMesh& coarse,
                    const CellUnknowns& unknowns, const CoarseParts& parts);
 

@@ -12,8 +12,8 @@ namespace {
 struct Box {
   GridIndex low, high;  ///< both inside
   bool apart_from(const Box& other, int gap) const {
-    return high.i + gap < other.low.i || other.high.i + gap < low.i ||
-           high.j + gap < other.low.j || other.high.j + gap < low.j;
+    return high.i + gap < other.low.i || other.high.i + gap < low.i || high.j + gap < other.low.j ||
+           other.high.j + gap < low.j;
   }
 };
 
@@ -27,7 +27,9 @@ Box box_of(const StructuredGrid& grid, const std::unordered_set<GlobalId>& nodes
   return box;
 }
 
-bool is_wide(const Box& box) { return std::max(box.high.i - box.low.i, box.high.j - box.low.j) > 2; }
+bool is_wide(const Box& box) {
+  return std::max(box.high.i - box.low.i, box.high.j - box.low.j) > 2;
+}
 
 /// Adds the nodes within `reach` of a node that lie in the box.
 void add_round(const StructuredGrid& grid, GridIndex n, int reach, const Box& box,
@@ -64,8 +66,7 @@ void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
       for (int ni = ti - 1; ni <= ti + 1; ++ni) {
         const auto near = tiles.find({nj, ni});
         if (near == tiles.end()) continue;
-        for (const GridIndex n : near->second)
-          add_round(grid, n, shape.reach, box, window.nodes);
+        for (const GridIndex n : near->second) add_round(grid, n, shape.reach, box, window.nodes);
       }
     }
     sort_once(window.nodes);
@@ -96,9 +97,9 @@ void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones,
     placed.emplace_back(box, window.colour);
     plans.windows.push_back(std::move(window));
   }
-  seeds.erase(std::remove_if(seeds.begin(), seeds.end(),
-                             [&](GlobalId id) { return inside.count(id) > 0; }),
-              seeds.end());
+  seeds.erase(
+      std::remove_if(seeds.begin(), seeds.end(), [&](GlobalId id) { return inside.count(id) > 0; }),
+      seeds.end());
 }
 
 }  // namespace

@@ -145,7 +145,8 @@ class Windows::Builder {
     for (std::size_t m = 0; m < share.members.size(); ++m) {
       const std::ptrdiff_t row = rows.find(share.members[m]);
       if (row < 0) throw SolveError("a cell of a window has no row of its own");
-      for (std::size_t k = rows.start[std::size_t(row)]; k < rows.start[std::size_t(row) + 1]; ++k) {
+      for (std::size_t k = rows.start[std::size_t(row)]; k < rows.start[std::size_t(row) + 1];
+           ++k) {
         const LocalId column = rows.column[k];
         const int place = place_[std::size_t(column)];
         if (place == outside) {

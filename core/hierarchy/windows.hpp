@@ -58,7 +58,7 @@ class Windows {
   };
   /// A window that this rank solves: its own members first, then those of others, rank by rank.
   struct Solved {
-    std::size_t share;  ///< this rank's own
+    std::size_t share;                                        ///< this rank's own
     std::vector<std::pair<std::size_t, std::size_t>> remote;  ///< place and number of what comes in
     std::size_t size = 0;
     const WindowFactor* factor = nullptr;

@@ -17,7 +17,9 @@ bool any(const LoadVector& load) { return load[0].has_value() || load[1].has_val
 
 /// A plain zero says that a side is free.
 bool acts(const LoadVector& load) {
-  const auto is_zero = [](const LoadValue& v) { return v.proportional && v.at(0.381966, 0.723607, 1) == 0.0; };
+  const auto is_zero = [](const LoadValue& v) {
+    return v.proportional && v.at(0.381966, 0.723607, 1) == 0.0;
+  };
   return (load[0] && !is_zero(*load[0])) || (load[1] && !is_zero(*load[1]));
 }
 

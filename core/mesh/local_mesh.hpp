@@ -52,9 +52,6 @@ class LocalMesh {
  private:
   LocalMesh(const StructuredGrid& grid, const BlockPartition& partition, int rank,
             const LocalMesh* finer);
-  void collect_owned();
-  void collect_elements();
-  void collect_ghosts(const LocalMesh* finer);
   void collect_shared(const LocalMesh* finer);
 
   StructuredGrid grid_;

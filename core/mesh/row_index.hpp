@@ -14,14 +14,16 @@ namespace cdca {
 class RowIndex {
  public:
   /// Appends the place with the next local number of its kind.
-  void add(GridIndex at, LocalId local) {
+  void add(GridIndex at, LocalId local) { add(at, 1, local); }
+  /// Appends `count` places from `at` to the right.
+  void add(GridIndex at, int count, LocalId local) {
     if (std::size_t(at.j) >= rows_.size()) rows_.resize(std::size_t(at.j) + 1);
     auto& row = rows_[std::size_t(at.j)];
     if (!row.empty() && row.back().first_i + row.back().count == at.i &&
         row.back().local + row.back().count == local) {
-      ++row.back().count;
+      row.back().count += count;
     } else {
-      row.push_back({at.i, 1, local});
+      row.push_back({at.i, count, local});
     }
   }
   /// Call once after the last add().

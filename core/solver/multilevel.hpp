@@ -14,7 +14,8 @@ namespace cdca {
 class VCycle {
  public:
   explicit VCycle(const Scales& scales);
-  /// moves = M^-1 forces on the finest scale; scratch: of the size of the vectors there. Collective.
+  /// moves = M^-1 forces on the finest scale; scratch: of the size of the vectors there.
+  /// Collective.
   void operator()(std::span<const double> forces, std::span<double> scratch,
                   std::span<double> moves);
 

@@ -20,8 +20,7 @@ class Scale {
   /// are.
   virtual void move_plain_cells(std::span<const double> forces, std::span<double> moves) const = 0;
   /// As move_plain_cells() for cells that have not moved yet: the moves on entry do not count.
-  virtual void start_plain_cells(std::span<const double> forces,
-                                 std::span<double> moves) const = 0;
+  virtual void start_plain_cells(std::span<const double> forces, std::span<double> moves) const = 0;
   /// The rule for cells near cracks, window by window; brings the forces up to date. Collective.
   virtual void move_windows(SweepDirection direction, std::span<double> forces,
                             std::span<double> moves) const = 0;
