@@ -69,13 +69,20 @@ inline Cracks cracks_apart(int count, double gap, unsigned seed) {
 
 inline Cracks fifty_cracks() { return cracks_apart(50, 0.03, 7); }
 
-/// Five cracks that cross and leave little of the plate whole.
+/// Five cracks that cross one another and leave no loose part.
+inline Cracks crossing() {
+  return {{{.1, .55}, {.9, 1.35}},
+          {{.15, 1.4}, {.85, .5}},
+          {{.5, .2}, {.53, .8}},
+          {{.15, .83}, {.4, .7}},
+          {{.55, 1.55}, {.9, 1.1}}};
+}
+
+/// Cracks from both sides that leave ligaments of a twentieth of the width, and cracks across the
+/// bridges between them.
 inline Cracks nearly_severing() {
-  return {{{.05, .6}, {.95, 1.3}},
-          {{.05, 1.3}, {.95, .65}},
-          {{.5, .3}, {.52, 1.7}},
-          {{.1, .8}, {.9, .83}},
-          {{.1, 1.2}, {.9, 1.14}}};
+  return {{{0, .6}, {.951, .63}}, {{1, .9}, {.05, .87}},    {{0, 1.2}, {.953, 1.17}},
+          {{.3, .7}, {.7, .78}},  {{.31, 1.1}, {.72, .95}}, {{.5, 1.3}, {.52, 1.9}}};
 }
 
 /// Random cracks that may cross, touch, run together and end on the rim.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The hierarchy of cells: pieces and stiffness on coarse scales, and the V-cycle, on any ranks.
 #include "core/solver/multilevel.hpp"
+
 #include "tests/plates.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ BlockPartition patchwork(const CaseSpec& spec) {
                             spec.domain.cells[1]);
   std::vector<int> owner;
   for (int j = 0; j <= grid.ny() / 3; ++j) {
-    for (int i = 0; i <= grid.nx() / 3; ++i) owner.push_back((i / 2 + 3 * (j / 2)) % world().size());
+    for (int i = 0; i <= grid.nx() / 3; ++i)
+      owner.push_back((i / 2 + 3 * (j / 2)) % world().size());
   }
   return {grid, 3, owner};
 }
@@ -46,10 +48,10 @@ struct Built {
   explicit Built(const CaseSpec& spec) : model(spec, world(), patchwork(spec)) {
     model.build_stiffness();
   }
-  const CellSystem& cells(std::size_t scale) const { return model.hierarchy().scale(scale).cells(); }
-  Vector zeros(std::size_t scale) const {
-    return Vector(std::size_t(cells(scale).count()), 0.0);
+  const CellSystem& cells(std::size_t scale) const {
+    return model.hierarchy().scale(scale).cells();
   }
+  Vector zeros(std::size_t scale) const { return Vector(std::size_t(cells(scale).count()), 0.0); }
   Vector random(std::size_t scale, unsigned seed) const {
     std::mt19937 engine(seed + 97 * unsigned(world().rank()));
     std::uniform_real_distribution<double> any(-1, 1);
@@ -94,7 +96,8 @@ TEST(MultilevelParallel, TransfersAreTransposed) {
     const Vector y = plate.random(k - 1, 4);
     scale.add_moves_of_coarser(x, px);
     scale.forces_to_coarser(y, pty);
-    EXPECT_NEAR(plate.cells(k - 1).dot(px, y), plate.cells(k).dot(x, pty), 1e-12 * double(y.size()));
+    EXPECT_NEAR(plate.cells(k - 1).dot(px, y), plate.cells(k).dot(x, pty),
+                1e-12 * double(y.size()));
   }
 }
 
@@ -103,8 +106,8 @@ TEST(MultilevelParallel, CycleIsSymmetricAndPositive) {
     const Built plate(cracked(tip_radius));
     VCycle cycle(plate.model.hierarchy());
     for (unsigned seed = 1; seed < 4; ++seed) {
-      // forces of moves of size 1: near-tip functions of wide zones are almost dependent, and forces
-      // at random would cause moves beyond all measure
+      // forces of moves of size 1: near-tip functions of wide zones are almost dependent, and
+      // forces at random would cause moves beyond all measure
       const Vector x = plate.apply(0, plate.random(0, seed));
       const Vector y = plate.apply(0, plate.random(0, seed + 10));
       Vector mx = plate.zeros(0), my = plate.zeros(0), scratch = plate.zeros(0);
@@ -112,7 +115,8 @@ TEST(MultilevelParallel, CycleIsSymmetricAndPositive) {
       cycle(y, scratch, my);
       const double xmx = plate.cells(0).dot(x, mx), ymy = plate.cells(0).dot(y, my);
       EXPECT_GT(xmx, 0.0);
-      EXPECT_NEAR(plate.cells(0).dot(x, my), plate.cells(0).dot(y, mx), 1e-11 * std::sqrt(xmx * ymy));
+      EXPECT_NEAR(plate.cells(0).dot(x, my), plate.cells(0).dot(y, mx),
+                  1e-11 * std::sqrt(xmx * ymy));
     }
   }
 }
