@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/bodies.hpp"
 
+#include "core/cells/element_stiffness.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -75,65 +77,120 @@ Vec2 place_of(const BasisContext& c, LocalId node, int piece) {
   return c.mesh.grid().node_position(c.mesh.node(node));
 }
 
-/// The pieces of this rank as one vertex each.
+/// The pieces of this rank: a vertex for each, but one for all plain cells that stand side by side.
 class PieceGraph {
  public:
   explicit PieceGraph(const BasisContext& c) : c_(c), sets_(0) {
-    first_.push_back(0);
-    for (LocalId n = 0; n < c.mesh.node_count(); ++n)
-      first_.push_back(first_.back() + c.unknowns.pieces(n));
-    sets_ = UnionFind(std::size_t(first_.back()));
-    for (LocalId k = 0; k < c.mesh.element_count(); ++k) {
-      const GridIndex e = c.mesh.element(k);
-      const auto nodes = c.mesh.element_nodes(e);
-      for (int part = 0; part < c.cuts.parts(e); ++part) {
-        for (std::size_t a = 1; a < 4; ++a) {
-          sets_.join(vertex(nodes[0], c.unknowns.piece(nodes[0], 2, part)),
-                     vertex(nodes[a], c.unknowns.piece(nodes[a], (a + 2) % 4, part)));
-        }
+    std::vector<char> plain(std::size_t(c.mesh.owned_nodes()), 1);
+    for (const LocalId n : c.unknowns.special_nodes()) {
+      if (c.mesh.owns(n)) plain[std::size_t(n)] = 0;
+    }
+    std::int32_t next = 0;
+    first_.reserve(std::size_t(c.mesh.node_count()));
+    for (LocalId n = 0; n < c.mesh.node_count(); ++n) {
+      const bool own_and_plain = c.mesh.owns(n) && plain[std::size_t(n)];
+      const bool follows = own_and_plain && n > 0 && plain[std::size_t(n) - 1] &&
+                           is_left_of(c.mesh.node(n - 1), c.mesh.node(n));
+      first_.push_back(follows ? first_.back() : next);
+      if (!follows) next += own_and_plain ? 1 : c.unknowns.pieces(n);
+    }
+    sets_ = UnionFind(std::size_t(next));
+    vertices_ = next;
+    join_rows(plain);
+    join_elements();
+  }
+  std::int32_t vertices() const { return vertices_; }
+  std::int32_t vertex(LocalId node, int piece) const { return first_[std::size_t(node)] + piece; }
+  const std::vector<std::int32_t>& first() const { return first_; }
+  /// The smallest vertex of the set.
+  std::int32_t set_of(std::int32_t vertex) { return std::int32_t(sets_.find(vertex)); }
+
+ private:
+  static bool is_left_of(GridIndex a, GridIndex b) { return a.j == b.j && a.i + 1 == b.i; }
+
+  /// Plain cells of one row with those above.
+  void join_rows(const std::vector<char>& plain) {
+    LocalId above = -1;
+    std::pair<std::int32_t, std::int32_t> last{-1, -1};
+    for (LocalId n = 0; n < c_.mesh.owned_nodes(); ++n) {
+      const GridIndex at = c_.mesh.node(n), over{at.i, at.j + 1};
+      const bool next =
+          above >= 0 && above + 1 < c_.mesh.owned_nodes() && c_.mesh.node(above + 1) == over;
+      above = next ? above + 1 : c_.mesh.find_node(over);
+      if (above < 0 || !c_.mesh.owns(above)) continue;
+      if (!plain[std::size_t(n)] || !plain[std::size_t(above)]) continue;
+      const std::pair pair{vertex(n, 0), vertex(above, 0)};
+      if (pair != last) sets_.join(pair.first, pair.second);
+      last = pair;
+    }
+  }
+
+  /// All that meet in an element near cracks or with a ghost.
+  void join_elements() {
+    for (const GlobalId id : elements_near_cracks(c_.mesh, c_.cuts, c_.unknowns))
+      join_element(c_.mesh.grid().element_index(id));
+    for (LocalId ghost = c_.mesh.owned_nodes(); ghost < c_.mesh.node_count(); ++ghost) {
+      for (const GridIndex e : c_.mesh.grid().elements_round(c_.mesh.node(ghost))) {
+        if (c_.mesh.find_element(e) >= 0) join_element(e);
       }
     }
   }
-  std::int64_t vertex(LocalId node, int piece) const { return first_[std::size_t(node)] + piece; }
-  const std::vector<std::int64_t>& first() const { return first_; }
-  std::int64_t set_of(LocalId node, int piece) { return sets_.find(vertex(node, piece)); }
 
- private:
+  void join_element(GridIndex e) {
+    const auto nodes = c_.mesh.element_nodes(e);
+    for (int part = 0; part < c_.cuts.parts(e); ++part) {
+      for (std::size_t a = 1; a < 4; ++a) {
+        sets_.join(vertex(nodes[0], c_.unknowns.piece(nodes[0], 2, part)),
+                   vertex(nodes[a], c_.unknowns.piece(nodes[a], (a + 2) % 4, part)));
+      }
+    }
+  }
+
   const BasisContext& c_;
-  std::vector<std::int64_t> first_;
+  std::vector<std::int32_t> first_;
+  std::int32_t vertices_ = 0;
   UnionFind sets_;
 };
 
-/// Names of this rank's sets, unique over all ranks.
-std::map<std::int64_t, std::int64_t> label_sets(const BasisContext& c, PieceGraph& graph,
-                                                Communicator& communicator) {
-  std::map<std::int64_t, std::int64_t> label;
-  for (LocalId n = 0; n < c.mesh.node_count(); ++n) {
-    for (int p = 0; p < c.unknowns.pieces(n); ++p) label.emplace(graph.set_of(n, p), 0);
-  }
+/// This rank's sets: names from `first` on, unique over all ranks.
+struct SetNames {
+  std::int64_t first = 0;
+  std::int64_t count = 0;
+  std::vector<std::int64_t> of_vertex;
+};
+
+SetNames name_sets(PieceGraph& graph, Communicator& communicator) {
+  SetNames names;
+  for (std::int32_t v = 0; v < graph.vertices(); ++v) names.count += graph.set_of(v) == v;
   std::vector<std::int64_t> counts(std::size_t(communicator.size()), 0);
-  counts[std::size_t(communicator.rank())] = std::int64_t(label.size());
+  counts[std::size_t(communicator.rank())] = names.count;
   communicator.sum(std::span<std::int64_t>(counts));
-  std::int64_t next =
+  names.first =
       std::accumulate(counts.begin(), counts.begin() + communicator.rank(), std::int64_t(0));
-  for (auto& [set, name] : label) name = next++;
-  return label;
+  std::int64_t next = names.first;
+  for (std::int32_t v = 0; v < graph.vertices(); ++v) {
+    const std::int32_t set = graph.set_of(v);
+    names.of_vertex.push_back(set == v ? next++ : names.of_vertex[std::size_t(set)]);
+  }
+  return names;
 }
 
 /// The pieces of border cells belong to one set here and to one at the neighbour: the same body.
-std::vector<SameBody> across_borders(const BasisContext& c, PieceGraph& graph,
-                                     const std::map<std::int64_t, std::int64_t>& label,
-                                     Communicator& communicator) {
+std::vector<SameBody> across_borders(const BasisContext& c, const PieceGraph& graph,
+                                     const SetNames& names, Communicator& communicator) {
+  const auto name_of = [&](LocalId n, int p) {
+    return names.of_vertex[std::size_t(graph.vertex(n, p))];
+  };
   std::vector<int> ranks;
   std::vector<Bytes> outgoing;
   for (const SharedNodes& shared : c.mesh.shared()) {
-    std::vector<std::int64_t> labels;
+    std::vector<std::int64_t> own;
     for (const LocalId n : shared.owned) {
-      for (int p = 0; p < c.unknowns.pieces(n); ++p) labels.push_back(label.at(graph.set_of(n, p)));
+      for (int p = 0; p < c.unknowns.pieces(n); ++p) own.push_back(name_of(n, p));
     }
     ranks.push_back(shared.rank);
     outgoing.emplace_back();
-    pack(outgoing.back(), std::span<const std::int64_t>(labels));
+    pack(outgoing.back(), std::span<const std::int64_t>(own));
   }
   std::vector<SameBody> same;
   const auto incoming = communicator.exchange(ranks, outgoing);
@@ -141,9 +198,7 @@ std::vector<SameBody> across_borders(const BasisContext& c, PieceGraph& graph,
     const auto theirs = unpack<std::int64_t>(incoming[k]);
     std::size_t at = 0;
     for (const LocalId n : c.mesh.shared()[k].ghosts) {
-      for (int p = 0; p < c.unknowns.pieces(n); ++p) {
-        same.push_back({label.at(graph.set_of(n, p)), theirs[at++]});
-      }
+      for (int p = 0; p < c.unknowns.pieces(n); ++p) same.push_back({name_of(n, p), theirs[at++]});
     }
   }
   const auto less = [](const SameBody& a, const SameBody& b) {
@@ -158,36 +213,48 @@ std::vector<SameBody> across_borders(const BasisContext& c, PieceGraph& graph,
   return communicator.agree(same, less);
 }
 
+/// What this rank knows of its sets that have own cells.
+std::vector<LocalBody> own_bodies(const BasisContext& c, const PieceGraph& graph,
+                                  const SetNames& names, const std::vector<char>& held,
+                                  const Bodies::Marks& marks) {
+  std::vector<LocalBody> bodies(std::size_t(names.count));
+  const auto add = [&](LocalId n, int p) {
+    const std::int64_t name = names.of_vertex[std::size_t(graph.vertex(n, p))];
+    LocalBody& body = bodies[std::size_t(name - names.first)];
+    if (body.pieces++ == 0) {
+      const Vec2 x = place_of(c, n, p);
+      body.label = name;
+      body.x = x.x();
+      body.y = x.y();
+    }
+    body.marks |= marks(n, p);
+    const LocalId u = c.unknowns.of_piece(n, p);
+    for (int component = 0; component < 2; ++component) {
+      if (held[std::size_t(u + component)]) add_hold(c, n, component, body);
+    }
+  };
+  const auto& special = c.unknowns.special_nodes();
+  auto next_special = special.begin();
+  for (LocalId n = 0; n < c.mesh.owned_nodes(); ++n) {
+    add(n, 0);
+    if (next_special == special.end() || *next_special != n) continue;
+    for (int p = 1; p < c.unknowns.pieces(n); ++p) add(n, p);
+    ++next_special;
+  }
+  std::erase_if(bodies, [](const LocalBody& body) { return body.pieces == 0; });
+  return bodies;
+}
+
 }  // namespace
 
 Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks& marks,
                Communicator& communicator) {
   PieceGraph graph(c);
-  const auto label = label_sets(c, graph, communicator);
-  std::map<std::int64_t, LocalBody> mine;
-  for (LocalId n = 0; n < c.mesh.owned_nodes(); ++n) {
-    for (int p = 0; p < c.unknowns.pieces(n); ++p) {
-      LocalBody& body = mine[label.at(graph.set_of(n, p))];
-      if (body.pieces++ == 0) {
-        const Vec2 x = place_of(c, n, p);
-        body.x = x.x();
-        body.y = x.y();
-      }
-      body.marks |= marks(n, p);
-      const LocalId u = c.unknowns.of_piece(n, p);
-      for (int component = 0; component < 2; ++component) {
-        if (held[std::size_t(u + component)]) add_hold(c, n, component, body);
-      }
-    }
-  }
-  std::vector<LocalBody> records;
-  for (auto& [name, body] : mine) {
-    body.label = name;
-    records.push_back(body);
-  }
-  const auto all = communicator.agree(
-      records, [](const LocalBody& a, const LocalBody& b) { return a.label < b.label; });
-  const auto same = across_borders(c, graph, label, communicator);
+  const SetNames names = name_sets(graph, communicator);
+  const auto all =
+      communicator.agree(own_bodies(c, graph, names, held, marks),
+                         [](const LocalBody& a, const LocalBody& b) { return a.label < b.label; });
+  const auto same = across_borders(c, graph, names, communicator);
 
   std::int64_t last = 0;
   for (const LocalBody& body : all) last = std::max(last, body.label);
@@ -208,11 +275,7 @@ Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks
     list_.push_back({Vec2(body.x, body.y), body.pieces, holds_all(body.rigid), body.marks});
   }
   first_ = graph.first();
-  for (LocalId n = 0; n < c.mesh.node_count(); ++n) {
-    for (int p = 0; p < c.unknowns.pieces(n); ++p) {
-      of_vertex_.push_back(number.at(sets.find(label.at(graph.set_of(n, p)))));
-    }
-  }
+  for (const std::int64_t name : names.of_vertex) of_vertex_.push_back(number.at(sets.find(name)));
 }
 
 }  // namespace cdca

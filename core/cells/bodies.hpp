@@ -36,8 +36,8 @@ class Bodies {
 
  private:
   std::vector<Body> list_;
-  std::vector<std::int64_t> first_;     ///< first piece of every node
-  std::vector<std::size_t> of_vertex_;  ///< body of every piece
+  std::vector<std::int32_t> first_;     ///< vertex of every node's first piece
+  std::vector<std::size_t> of_vertex_;  ///< body of every vertex
 };
 
 }  // namespace cdca

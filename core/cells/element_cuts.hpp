@@ -22,6 +22,8 @@ struct CrackFace {
   GridIndex minus_element;
   int plus_part = 0;
   int minus_part = 0;
+  /// Of the crack, grid coordinates; differs from that of the face where this runs round a sliver.
+  Vec2 direction{0, 0};
 };
 
 class ElementCuts final : public ElementParts {

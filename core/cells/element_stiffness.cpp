@@ -6,10 +6,11 @@
 namespace cdca {
 
 FinestElements::FinestElements(const BasisContext& context, const ElasticMatrix& elastic,
-                               StiffnessCache& cache)
+                               StiffnessCache& cache, const FaceSprings* springs)
     : context_(context),
       elastic_(elastic),
       cache_(cache),
+      springs_(springs),
       plain_(plain_stiffness(context.mesh.grid().element_size(), elastic)),
       special_(elements_near_cracks(context.mesh, context.cuts, context.unknowns)) {}
 
@@ -17,6 +18,12 @@ std::vector<PartStiffness> FinestElements::parts(GridIndex element) {
   std::vector<PartStiffness> parts;
   for (int part = 0; part < context_.cuts.parts(element); ++part) {
     parts.push_back(cache_.of(context_, element, part, elastic_));
+  }
+  if (springs_) {
+    for (const CrackFace& face : context_.cuts.faces_of(element)) {
+      const auto stretches = springs_->on(face);
+      if (!stretches.empty()) parts.push_back(face_stiffness(context_, face, elastic_, stretches));
+    }
   }
   return parts;
 }

@@ -2,7 +2,7 @@
 /// The stiffness of the elements of one scale, as cells add it up.
 #pragma once
 
-#include "core/cells/part_stiffness.hpp"
+#include "core/cells/face_stiffness.hpp"
 #include "core/cells/stiffness_cache.hpp"
 
 #include <vector>
@@ -20,14 +20,17 @@ class ElementStiffness {
   /// Elements of this rank that are cut, or carry near-tip functions, or touch cells with several
   /// pieces, or are not whole; in order of id.
   virtual const std::vector<GlobalId>& special() const = 0;
-  /// Of a special element: one matrix for each part.
+  /// Of a special element: one matrix for each part, and for each face with springs that the
+  /// element counts as its own.
   virtual std::vector<PartStiffness> parts(GridIndex element) = 0;
 };
 
 /// The elements of the grid itself.
 class FinestElements final : public ElementStiffness {
  public:
-  FinestElements(const BasisContext& context, const ElasticMatrix& elastic, StiffnessCache& cache);
+  /// springs: between touching faces; null for none.
+  FinestElements(const BasisContext& context, const ElasticMatrix& elastic, StiffnessCache& cache,
+                 const FaceSprings* springs);
   const PlainStiffness& plain() const override { return plain_; }
   const std::vector<GlobalId>& special() const override { return special_; }
   std::vector<PartStiffness> parts(GridIndex element) override;
@@ -36,6 +39,7 @@ class FinestElements final : public ElementStiffness {
   BasisContext context_;
   ElasticMatrix elastic_;
   StiffnessCache& cache_;
+  const FaceSprings* springs_;
   PlainStiffness plain_;
   std::vector<GlobalId> special_;
 };

@@ -5,6 +5,7 @@
 #include "core/mesh/shape_functions.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace cdca {
@@ -76,6 +77,32 @@ CoarseParts::CoarseParts(const ScaleParts& finer, int level, GridIndex body,
   }
   touched_.assign(is_touched_.begin(), is_touched_.end());
   std::sort(touched_.begin(), touched_.end());
+  join_bonds();
+}
+
+void CoarseParts::join_bonds() {
+  std::map<std::array<int, 6>, std::size_t> place;
+  for (const Bond& fine : finer_.bonds()) {
+    Bond bond{{fine.plus.i / 2, fine.plus.j / 2},
+              {fine.minus.i / 2, fine.minus.j / 2},
+              part_of(fine.plus, fine.plus_part),
+              part_of(fine.minus, fine.minus_part)};
+    // where a crack ends inside a coarse element its faces move as one
+    if (bond.plus == bond.minus && bond.plus_part == bond.minus_part) continue;
+    const auto [at, is_new] =
+        place.emplace(std::array<int, 6>{bond.plus.i, bond.plus.j, bond.plus_part, bond.minus.i,
+                                         bond.minus.j, bond.minus_part},
+                      bonds_.size());
+    if (is_new) bonds_.push_back(bond);
+    BondStiffness& k = bonds_[at->second].stiffness;
+    const PlainStiffness p = child_interpolation(fine.plus.i % 2, fine.plus.j % 2);
+    const PlainStiffness m = child_interpolation(fine.minus.i % 2, fine.minus.j % 2);
+    k.topLeftCorner<8, 8>() += p.transpose() * fine.stiffness.topLeftCorner<8, 8>() * p;
+    k.bottomRightCorner<8, 8>() += m.transpose() * fine.stiffness.bottomRightCorner<8, 8>() * m;
+    const PlainStiffness cross = p.transpose() * fine.stiffness.topRightCorner<8, 8>() * m;
+    k.topRightCorner<8, 8>() += cross;
+    k.bottomLeftCorner<8, 8>() += cross.transpose();
+  }
 }
 
 bool CoarseParts::touched(GridIndex e) const {
@@ -188,6 +215,9 @@ CoarseElements::CoarseElements(const LocalMesh& mesh, const CellUnknowns& unknow
   for (int j = 0; j < grid.ny(); ++j) add({grid.nx() - 1, j});
   std::sort(special_.begin(), special_.end());
   special_.erase(std::unique(special_.begin(), special_.end()), special_.end());
+  for (std::size_t b = 0; b < parts.bonds().size(); ++b) {
+    bonds_at_[grid.element(parts.bonds()[b].plus)].push_back(b);
+  }
 }
 
 std::vector<PartStiffness> CoarseElements::parts(GridIndex element) {
@@ -202,6 +232,10 @@ std::vector<PartStiffness> CoarseElements::parts(GridIndex element) {
     }
     own.matrix = parts_.stiffness(element, part);
     found.push_back(std::move(own));
+  }
+  if (const auto at = bonds_at_.find(mesh_.grid().element(element)); at != bonds_at_.end()) {
+    for (const std::size_t b : at->second)
+      found.push_back(held_entries(parts_.bonds()[b], mesh_, unknowns_));
   }
   return found;
 }

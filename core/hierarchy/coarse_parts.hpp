@@ -4,6 +4,7 @@
 
 #include "core/cells/element_cuts.hpp"
 #include "core/cells/element_stiffness.hpp"
+#include "core/hierarchy/bonds.hpp"
 
 #include <unordered_map>
 #include <unordered_set>
@@ -14,13 +15,22 @@ namespace cdca {
 class ScaleParts : public ElementParts {
  public:
   virtual PlainStiffness stiffness(GridIndex element, int part) const = 0;
+  /// Springs between touching faces.
+  const std::vector<Bond>& bonds() const { return bonds_; }
+
+ protected:
+  std::vector<Bond> bonds_;
 };
 
 /// The scale of the grid itself.
 class FinestParts final : public ScaleParts {
  public:
-  FinestParts(const ElementCuts& cuts, const ElasticMatrix& elastic)
-      : cuts_(cuts), elastic_(elastic) {}
+  /// springs: null when no faces touch.
+  FinestParts(const ElementCuts& cuts, const std::vector<TipZone>& zones,
+              const ElasticMatrix& elastic, const FaceSprings* springs)
+      : cuts_(cuts), elastic_(elastic) {
+    if (springs) bonds_ = finest_bonds(cuts, zones, elastic, *springs);
+  }
   const StructuredGrid& grid() const override { return cuts_.grid(); }
   const std::vector<GlobalId>& touched_elements() const override {
     return cuts_.touched_elements();
@@ -68,6 +78,7 @@ class CoarseParts final : public ScaleParts {
   const Element& element(GridIndex e) const;
   Element make_element(GridIndex e) const;
   void make_sides(GridIndex e, Element& element) const;
+  void join_bonds();
   /// The share of the element's width and height that lies in the body.
   Vec2 inside(GridIndex e) const;
 
@@ -95,6 +106,7 @@ class CoarseElements final : public ElementStiffness {
   const CellUnknowns& unknowns_;
   const CoarseParts& parts_;
   std::vector<GlobalId> special_;
+  std::unordered_map<GlobalId, std::vector<std::size_t>> bonds_at_;  ///< by the plus element
 };
 
 /// Displacements of a child's corners from those of the coarse element, x and y of each; (cx, cy)

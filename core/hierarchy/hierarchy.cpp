@@ -33,8 +33,8 @@ class Hierarchy::Level final : public Scale {
   /// A coarse scale. own_rows: cells of windows, or all cells of the coarsest.
   Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator)
       : parts_(std::move(parts)),
-        own_unknowns_(std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(),
-                                                     communicator)),
+        own_unknowns_(
+            std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(), communicator)),
         mesh_(&mesh),
         unknowns_(own_unknowns_.get()) {}
 
@@ -126,21 +126,21 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   lay_meshes(basis.mesh);
   factors_.begin_cycle();
   levels_.clear();
-  finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic);
+  finest_parts_ =
+      std::make_unique<FinestParts>(basis.cuts, basis.zones, finest.elastic, finest.faces);
   levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
   if (meshes_.empty()) {
     levels_[0]->set_coarsest();
     return;
   }
-  levels_[0]->set_smoother(finest_plans_,
-                           plain_stiffness(basis.mesh.grid().element_size(), finest.elastic),
-                           factors_);
+  levels_[0]->set_smoother(
+      finest_plans_, plain_stiffness(basis.mesh.grid().element_size(), finest.elastic), factors_);
   const ScaleParts* finer = finest_parts_.get();
   std::vector<double> held(finest.held.begin(), finest.held.end()), springs = finest.springs;
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     levels_.emplace_back(new Level(
-        meshes_[k],
-        std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic), communicator));
+        meshes_[k], std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic),
+        communicator));
     Level& level = *levels_.back();
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
@@ -160,8 +160,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
       for (double& s : springs) s = s > 0 ? strength : 0;
     }
     const bool coarsest = k + 1 == meshes_.size();
-    const WindowPlans plans =
-        coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
+    const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
     level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), held_now, springs,
                     communicator);
     if (coarsest) {

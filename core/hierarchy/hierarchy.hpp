@@ -26,6 +26,7 @@ struct FinestScale {
   const ElasticMatrix& elastic;
   const std::vector<char>& held;       ///< of every unknown
   const std::vector<double>& springs;  ///< of every unknown, relative; may be empty
+  const FaceSprings* faces;            ///< between touching faces; null for none
 };
 
 /// All scales of a body.

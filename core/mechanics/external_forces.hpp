@@ -18,6 +18,8 @@ struct FaceLoad {
   std::function<Vec2(const Vec2& x, const Vec2& n)> on_plus;
 };
 
+class ContactPatches;
+
 /// Everything that acts on the body at one load factor.
 struct ExternalLoads {
   struct SideTraction {
@@ -32,6 +34,7 @@ struct ExternalLoads {
   std::vector<PointForce> forces;
   std::function<Vec2(const Vec2& x)> body;  ///< N/m^3; empty: none
   std::vector<FaceLoad> faces;
+  const ContactPatches* contact = nullptr;  ///< tractions of touching faces; forces come with K
   std::array<bool, 4> held_sides{};  ///< by Side: displacements are prescribed, tractions unknown
 };
 

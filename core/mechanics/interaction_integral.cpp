@@ -2,6 +2,7 @@
 #include "core/mechanics/interaction_integral.hpp"
 
 #include "core/cells/quadrature.hpp"
+#include "core/mechanics/contact_patches.hpp"
 #include "core/mechanics/side_walk.hpp"
 #include "core/mesh/shape_functions.hpp"
 
@@ -198,7 +199,8 @@ class TipIntegral {
     for (const FaceLoad& l : loads_.faces) {
       if (l.crack == face.crack) load = &l;
     }
-    if (straight && !load) return;
+    const bool touches = loads_.contact && loads_.contact->touches(face);
+    if (straight && !load && !touches) return;
     const StructuredGrid& grid = c_.mesh.grid();
     const GridIndex e = plus ? face.plus_element : face.minus_element;
     const PartBasis basis(c_, e, plus ? face.plus_part : face.minus_part);
@@ -217,7 +219,8 @@ class TipIntegral {
       const Vec2 x = grid.from_grid(corner + point.at);
       const double r = zone_.frame.local(x).norm();
       if (r == 0.0) continue;
-      const Vec2 t = load ? Vec2(sign * axes_ * load->on_plus(x, n)) : Vec2(0, 0);
+      Vec2 t = load ? Vec2(sign * axes_ * load->on_plus(x, n)) : Vec2(0, 0);
+      if (touches) t += sign * axes_ * loads_.contact->on_plus(face.crack, face.segment, x);
       const Vec2 inside = point.at + shift;
       const ActualField field = straight ? ActualField{} : actual(basis, point.at, &inside);
       const double w = point.weight * along.norm() * q.value(point.at);

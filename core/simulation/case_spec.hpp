@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/mechanics/boundary_spec.hpp"
+#include "core/mechanics/contact_law.hpp"
 
 #include <array>
 #include <optional>
@@ -36,6 +37,7 @@ struct CrackSpec {
   std::string name;
   std::vector<Vec2> points;  ///< m, at least two
   int line = 0;
+  ContactSpec contact{};  ///< of its faces, those that it grows included
 };
 
 enum class SolverMethod { relaxation, krylov, multilevel };

@@ -145,9 +145,11 @@ CrackPart draw_cracks(const Model& model) {
       const Crack& crack = model.registry().cracks()[std::size_t(face.crack)];
       part.crack.push_back(face.crack);
       part.age.push_back(crack.age[std::size_t(face.segment)]);
-      part.contact_state.push_back(0);
-      part.normal_traction.push_back(0.0);
-      part.tangential_traction.push_back(0.0);
+      const Vec2 middle = model.grid().from_grid(0.5 * (face.from + face.to));
+      const ContactPatch* patch = model.contact().find(face.crack, face.segment, middle);
+      part.contact_state.push_back(patch ? int(patch->now.state) : 0);
+      part.normal_traction.push_back(patch ? patch->now.normal : 0.0);
+      part.tangential_traction.push_back(patch ? patch->now.tangential : 0.0);
     }
   }
   return part;

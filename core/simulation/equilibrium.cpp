@@ -41,48 +41,97 @@ Equilibrium unloaded(Model& model) {
   return result;
 }
 
-Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor) {
-  const CellStiffness& cells = model.stiffness();
-  const auto all = std::size_t(cells.count());
-  const auto own = std::size_t(cells.owned());
-  std::vector<double> external(all, 0.0), held(all, 0.0), product(all, 0.0), forces(all, 0.0);
-  fail_together(cells.communicator(), [&] {
-    // an expression may have no value at some place of one rank
-    add_external_forces(model.basis(), model.loads(load_factor), external);
-    model.supports().prescribe(model.spec().boundaries, load_factor, held);
-  });
-  cells.apply(held, product);
-  for (std::size_t k = 0; k < own; ++k) forces[k] = external[k] - product[k];
-  cells.clear_held(forces);
+namespace {
 
-  Equilibrium result;
+/// Forces on own cells in one solve, N per metre of thickness.
+struct Forces {
+  std::vector<double> external;  ///< of the loads
+  std::vector<double> faces;     ///< of given tractions between touching faces
+  std::vector<double> held;      ///< prescribed displacements, m
+};
+
+/// One linear solve with the springs and the given tractions of the touching faces as they are.
+SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
+                        const Forces& given) {
+  const CellStiffness& cells = model.stiffness();
+  const auto own = std::size_t(cells.owned());
+  std::vector<double> forces(std::size_t(cells.count()), 0.0), product(forces);
+  cells.apply(given.held, product);
+  for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k] - product[k];
+  cells.clear_held(forces);
   std::vector<double>& state = model.state();
   cells.clear_held(state);
+  SolverReport report;
   const double scale = std::sqrt(cells.dot(forces, forces));
   if (scale > 0.0) {
-    result.solver = solver.solve(cells, forces, state, scale);
-    require_convergence(result.solver, model.spec().solver, load_factor);
+    report = solver.solve(cells, forces, state, scale);
+    require_convergence(report, model.spec().solver, load_factor);
   } else {
     std::fill(state.begin(), state.end(), 0.0);
   }
-  for (std::size_t k = 0; k < own; ++k) state[k] += held[k];
+  for (std::size_t k = 0; k < own; ++k) state[k] += given.held[k];
   cells.halo().copy_state(state);
+  return report;
+}
 
-  cells.apply(state, product);
-  result.strain_energy = 0.5 * cells.dot(state, product);
+/// Steps 5-7 of 2.4.3: solves until no patch changes its state and the tractions settle.
+SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
+                            Forces& given, Equilibrium& result) {
+  constexpr int most = 60;
+  SolverReport worst;
+  for (result.contact_iterations = 1; result.contact_iterations <= most;
+       ++result.contact_iterations) {
+    std::fill(given.faces.begin(), given.faces.end(), 0.0);
+    model.contact().add_forces(model.basis(), given.faces);
+    const SolverReport report = solve_once(model, solver, load_factor, given);
+    worst.iterations = std::max(worst.iterations, report.iterations);
+    worst.residual = report.residual;
+    worst.converged = true;
+    const ContactPatches::Change change = model.respond_to_gaps();
+    const double tolerance = 10 * model.spec().solver.tolerance;
+    if (!change.springs && change.traction <= tolerance * change.largest) return worst;
+    if (change.springs) model.build_stiffness();
+  }
+  std::ostringstream text;
+  text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
+       << most << " iterations; smaller load steps may help.";
+  throw SolveError(text.str());
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor) {
+  const auto all = std::size_t(model.stiffness().count());
+  Forces given{std::vector<double>(all, 0.0), std::vector<double>(all, 0.0),
+               std::vector<double>(all, 0.0)};
+  fail_together(model.communicator(), [&] {
+    // an expression may have no value at some place of one rank
+    add_external_forces(model.basis(), model.loads(load_factor), given.external);
+    model.supports().prescribe(model.spec().boundaries, load_factor, given.held);
+  });
+  Equilibrium result;
+  result.solver = model.contact().empty()
+                      ? solve_once(model, solver, load_factor, given)
+                      : settle_contact(model, solver, load_factor, given, result);
+
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> product(all, 0.0);
+  cells.apply(model.state(), product);
+  result.strain_energy =
+      0.5 * cells.dot(model.state(), product) +
+      model.contact().energy_correction(model.basis(), model.state(), model.communicator());
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
   result.supports.assign(all, 0.0);
   for (const HeldUnknown& h : model.supports().held()) {
     const auto u = std::size_t(h.unknown);
-    result.supports[u] = product[u] - external[u];
+    result.supports[u] = product[u] - given.external[u] - given.faces[u];
     // of a shifted near-tip function only the pieces' unknowns carry a resultant
-    if (!h.samples.empty())
-      sums[2 * h.block + std::size_t(h.component)] += product[u] - external[u];
+    if (!h.samples.empty()) sums[2 * h.block + std::size_t(h.component)] += result.supports[u];
   }
   cells.communicator().sum(std::span<double>(sums));
   for (std::size_t b = 0; 2 * b < sums.size(); ++b)
     result.reactions.emplace_back(sums[2 * b], sums[2 * b + 1]);
-  result.external = std::move(external);
+  result.external = std::move(given.external);
   return result;
 }
 

@@ -10,7 +10,8 @@ namespace cdca {
 std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
 
 struct Equilibrium {
-  SolverReport solver;
+  SolverReport solver;         ///< of the slowest linear solve
+  int contact_iterations = 0;  ///< linear solves until touching faces settled; 0: none touch
   /// Force of the supports of every boundary block on the body, N per metre of thickness.
   std::vector<Vec2> reactions;
   double strain_energy = 0.0;  ///< J per metre of thickness

@@ -7,6 +7,7 @@
 #include "core/mechanics/loaded_pieces.hpp"
 #include "core/simulation/state_transfer.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <sstream>
 
@@ -50,6 +51,15 @@ void Model::place_cracks() {
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
   refuse_hidden_cracks();
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  contact_ = ContactPatches(grid_, material_.elastic_matrix(), contact_laws(), registry_.cracks(),
+                            nullptr);
+}
+
+std::vector<ContactSpec> Model::contact_laws() const {
+  std::vector<ContactSpec> laws;
+  for (const CrackSpec& crack : spec_.cracks) laws.push_back(crack.contact);
+  laws.resize(registry_.cracks().size());  // faces that the case says nothing of never touch
+  return laws;
 }
 
 void Model::build_cells() {
@@ -64,6 +74,37 @@ void Model::find_bodies() {
   bodies_ = std::make_unique<Bodies>(
       basis(), supports_.flags(unknowns_.count()),
       [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
+  if (contact_.empty()) return;
+  contact_.find_bodies(
+      basis(),
+      [&](GridIndex e, int part) {
+        const auto nodes = mesh_.element_nodes(e);
+        std::size_t a = 0;
+        while (nodes[a] < 0) ++a;
+        return int(bodies_->body_of(nodes[a], unknowns_.piece(nodes[a], (a + 2) % 4, part)));
+      },
+      communicator_);
+}
+
+std::vector<char> Model::held_bodies(bool touching_only) const {
+  std::vector<char> held;
+  for (const Body& body : bodies_->list()) held.push_back(body.held);
+  for (bool found = true; found;) {
+    found = false;
+    for (const ContactPatch& p : contact_.patches()) {
+      if (touching_only && p.now.state == ContactState::open) continue;
+      const auto [a, b] = p.bodies;
+      if (a < 0 || b < 0 || held[std::size_t(a)] == held[std::size_t(b)]) continue;
+      held[std::size_t(a)] = held[std::size_t(b)] = 1;
+      found = true;
+    }
+  }
+  return held;
+}
+
+ContactPatches::Change Model::respond_to_gaps() {
+  contact_.measure(basis(), state_, communicator_);
+  return contact_.respond();
 }
 
 void Model::build_stiffness() {
@@ -71,13 +112,14 @@ void Model::build_stiffness() {
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs();
   elastic_ = material_.elastic_matrix();
-  FinestElements elements(basis(), elastic_, cache_);
+  const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
+  FinestElements elements(basis(), elastic_, cache_, faces);
   const bool multilevel = spec_.solver.method == SolverMethod::multilevel;
   stiffness_ = std::make_unique<CellStiffness>(
       mesh_, unknowns_, elements, held, weak,
       multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
       multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_);
-  if (multilevel) hierarchy_.build({basis(), elastic_, held, weak}, *stiffness_);
+  if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces}, *stiffness_);
 }
 
 void Model::lay_cracks(CrackRegistry registry) {
@@ -86,6 +128,8 @@ void Model::lay_cracks(CrackRegistry registry) {
   const std::vector<TipZone> old_zones = std::move(zones_);
   const std::vector<double> old_state = std::move(state_);
   registry_ = std::move(registry);
+  contact_ = ContactPatches(grid_, material_.elastic_matrix(), contact_laws(), registry_.cracks(),
+                            &contact_);
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()), old_cuts);
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
   build_cells();
@@ -95,13 +139,12 @@ void Model::lay_cracks(CrackRegistry registry) {
 
 std::vector<double> Model::springs() const {
   constexpr double weak = 1e-6;  // of the unknown's own stiffness
-  bool any = false;
-  for (const Body& body : bodies_->list()) any = any || !body.held;
-  if (!any) return {};
+  const auto held = held_bodies(true);
+  if (std::find(held.begin(), held.end(), 0) == held.end()) return {};
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
-      if (bodies_->list()[bodies_->body_of(n, p)].held) continue;
+      if (held[bodies_->body_of(n, p)]) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
       springs[u] = springs[u + 1] = weak;
     }
@@ -110,11 +153,27 @@ std::vector<double> Model::springs() const {
 }
 
 bool Model::joins_loaded_boundaries() const {
+  const auto held = held_bodies(true);
+  const auto& bodies = bodies_->list();
+  std::vector<std::uint64_t> marks;
+  for (const Body& body : bodies) marks.push_back(body.marks);
+  // bodies that touch carry the marks of each other
+  for (bool found = true; found;) {
+    found = false;
+    for (const ContactPatch& p : contact_.patches()) {
+      const auto [a, b] = p.bodies;
+      if (p.now.state == ContactState::open || a < 0 || b < 0) continue;
+      auto &of_a = marks[std::size_t(a)], &of_b = marks[std::size_t(b)];
+      if (of_a == of_b) continue;
+      of_a = of_b = of_a | of_b;
+      found = true;
+    }
+  }
   bool joined = false;
-  for (const Body& body : bodies_->list()) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
     // nothing balances the forces on a part that has come off
-    if (!body.held && (body.marks & LoadedPieces::forces)) return false;
-    joined = joined || (body.held && std::popcount(body.marks & LoadedPieces::boundaries) > 1);
+    if (!held[k] && (marks[k] & LoadedPieces::forces)) return false;
+    joined = joined || (held[k] && std::popcount(marks[k] & LoadedPieces::boundaries) > 1);
   }
   return joined;
 }
@@ -140,8 +199,9 @@ void Model::refuse_hidden_cracks() const {
 void Model::refuse_loose_bodies() const {
   std::vector<Problem> problems;
   const auto& bodies = bodies_->list();
+  const auto held = held_bodies(false);
   for (const Body& body : bodies) {
-    if (body.held) continue;
+    if (held[std::size_t(&body - bodies.data())]) continue;
     std::ostringstream text;
     text << (bodies.size() == 1
                  ? "the supports leave the body free to move as a rigid whole"
@@ -158,7 +218,9 @@ void Model::refuse_loose_bodies() const {
 ExternalLoads Model::loads(double s) const {
   std::vector<std::string> names;
   for (const Crack& crack : registry_.cracks()) names.push_back(crack.name);
-  return loads_at(spec_.boundaries, spec_.domain.body_force, names, s);
+  ExternalLoads loads = loads_at(spec_.boundaries, spec_.domain.body_force, names, s);
+  if (!contact_.empty()) loads.contact = &contact_;
+  return loads;
 }
 
 FieldValue Model::field_at(const Vec2& x) const {

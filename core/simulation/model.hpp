@@ -6,6 +6,7 @@
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/hierarchy/hierarchy.hpp"
+#include "core/mechanics/contact_patches.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
@@ -39,8 +40,8 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
-  /// A body, and not only pieces cut off it, still joins two loaded boundaries, and no part on which
-  /// forces act has come off.
+  /// A body, and not only pieces cut off it, still joins two loaded boundaries, and no part on
+  /// which forces act has come off.
   bool joins_loaded_boundaries() const;
 
   const CaseSpec& spec() const { return spec_; }
@@ -50,6 +51,11 @@ class Model {
   const CrackRegistry& registry() const { return registry_; }
   const Material& material() const { return material_; }
   const Supports& supports() const { return supports_; }
+  const ContactPatches& contact() const { return contact_; }
+  /// Looks at the gaps of the state, which gives the patches new answers. Collective.
+  ContactPatches::Change respond_to_gaps();
+  /// The slip of this equilibrium becomes history.
+  void accept_slip() { contact_.accept(); }
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
@@ -76,6 +82,10 @@ class Model {
   void place_cracks();
   void build_cells();
   void find_bodies();
+  std::vector<ContactSpec> contact_laws() const;
+  /// Whether each body is held: by supports, or by faces (touching ones, or all) of bodies that
+  /// are.
+  std::vector<char> held_bodies(bool touching_only) const;
   std::vector<double> springs() const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
@@ -91,6 +101,7 @@ class Model {
   CellUnknowns unknowns_;
   Supports supports_;
   std::unique_ptr<Bodies> bodies_;
+  ContactPatches contact_;
   StiffnessCache cache_;
   ElasticMatrix elastic_;
   std::unique_ptr<CellStiffness> stiffness_;
