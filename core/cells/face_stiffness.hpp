@@ -21,41 +21,46 @@ struct FaceStretch {
 class FaceSprings {
  public:
   virtual ~FaceSprings() = default;
-  /// Stretches with springs; none where the faces are free.
+  /// Stretches with their springs, which may be 0; none for faces that never touch.
   virtual std::vector<FaceStretch> on(const CrackFace& face) const = 0;
 };
 
 /// A face in metres, and how its springs are put to work.
 ///
-/// A stiff spring k at every place of a cut element gives tractions that oscillate from element to
-/// element. So the traction is t = (g + S s) / (1/k + S), s the mean stress of the two sides,
-/// weighted by their areas, and S the compliance of a tenth of the element: it is the spring's
-/// k g when both agree, and never stiffer than the element itself (Nitsche's method for compliant
-/// interfaces). Its symmetric form is
+/// Springs act on the mean jump over a face, that is, over the crack inside one element. A stiff
+/// spring k gives tractions that oscillate from element to element even so. Therefore the traction
+/// is t = (g + S s) / (1/k + S), s the mean stress of the two sides, weighted by their areas, and S
+/// the compliance of a fifth of the element: it is the spring's k g when both agree, and never
+/// stiffer than the element itself (Nitsche's method for compliant interfaces). It is the
+/// stationary point in t of
 ///
-///     a [u][v] + b (s(u) [v] + [u] s(v)) - c s(u) s(v),
-///     a = 1 / (1/k + S), b = S a, c = b / k.
+///     t (g + S s) - (1/k + S) t^2 / 2 - S s^2 / 2.
 ///
-/// Stresses of near-tip functions are not square integrable: beside these only a is used, S there
-/// being the compliance of a hundredth of the element.
+/// With the spring, t drops out and leaves the form
+///
+///     a [u][v] + b (s(u) [v] + [u] s(v)) - c s(u) s(v),   a = 1 / (1/k + S), b = S a, c = b / k;
+///
+/// with a given traction t (0 on open faces) a = b = 0, c = S, and t ([v] + S s(v)) is a load. Both
+/// meet without a jump where one takes over from the other. The form stays positive as long as S is
+/// small enough.
+///
+/// Among near-tip functions S is a tenth of that, and shrinks with the distance from the tip, so
+/// that the squares of the singular stresses stay bounded. Stresses beyond a grid line reach
+/// farther than the neighbour cells: along grid lines only a is used, S being the compliance of a
+/// hundredth of the element; the springs stand at the nodes there, so that no tractions oscillate
+/// either.
 struct FaceGeometry {
-  FaceGeometry(const ElementCuts& cuts, const std::vector<TipZone>& zones, const CrackFace& face,
-               const ElasticMatrix& elastic);
+  FaceGeometry(const ElementCuts& cuts, const CrackFace& face, const ElasticMatrix& elastic);
 
   Vec2 tangent, normal;  ///< of the crack's direction, and from the minus to the plus face
   double length;         ///< m
-  bool near_tip;
-  double compliance;  ///< S, m/Pa
-  double plus_share;  ///< of the mean stress
+  bool uses_stress;      ///< not along a grid line
+  double depth;          ///< m, of the material that the springs see
+  double compliance;     ///< S away from tips, m/Pa
+  double plus_share;     ///< of the mean stress
 };
 
-/// a, b and c for a spring k > 0.
-struct SpringTerms {
-  SpringTerms(const FaceGeometry& face, double spring);
-  double jump, mixed, stress;
-};
-
-/// A function as the face sees it: its jump, and the mean of its tractions (s n) for unit
+/// A function as a spot of a face sees it: its jump, and the mean of its tractions (s n) for unit
 /// displacements in x and y, Pa.
 struct FaceFunction {
   LocalId unknown = 0;
@@ -63,22 +68,43 @@ struct FaceFunction {
   Eigen::Matrix2d traction = Eigen::Matrix2d::Zero();
 };
 
+/// Where a spring acts: the means over a stretch of a face, or a node on a grid line.
+struct FaceSpot {
+  double weight = 0.0;      ///< length, m
+  double compliance = 0.0;  ///< S, m/Pa
+  std::vector<FaceFunction> functions;
+
+  /// Jump (m) and mean traction (Pa), both as (tangential, normal).
+  struct Field {
+    Vec2 jump{0, 0};
+    Vec2 traction{0, 0};
+  };
+  Field field(const FaceGeometry& face, std::span<const double> state) const;
+};
+
+/// a, b and c for a spring k, or without one (k = 0).
+struct SpringTerms {
+  SpringTerms(const FaceGeometry& face, double compliance, double spring);
+  double jump = 0.0, mixed = 0.0, stress = 0.0;
+};
+
 /// (s n) of a function with the given gradient, moved in x and in y.
 Eigen::Matrix2d traction_of(const Vec2& gradient, const Vec2& normal, const ElasticMatrix& elastic);
 
-/// Adds the springs at one place to a matrix over all functions, x and y of each.
-void add_springs(const std::vector<FaceFunction>& functions, const FaceGeometry& face,
-                 const FaceStretch& springs, double weight, Eigen::Ref<Eigen::MatrixXd> matrix);
+/// Adds the springs at a spot to a matrix over all of its functions, x and y of each.
+void add_springs(const FaceSpot& spot, const FaceGeometry& face, const FaceStretch& springs,
+                 Eigen::Ref<Eigen::MatrixXd> matrix);
 
-/// Places on a stretch of a face: grid coordinates and length elements, m.
+/// A place on a face: grid coordinates and length element, m.
 struct FacePoint {
   Vec2 at{0, 0};
   double weight = 0.0;
 };
 
-/// Three points: exact for products of jumps of bilinear functions.
-std::array<FacePoint, 3> plain_points(const CrackFace& face, const FaceGeometry& geometry,
-                                      double from, double to);
+/// The points whose mean a spot is: one spot with two points, exact for jumps of bilinear
+/// functions, or on a grid line one for each end of the face.
+std::vector<std::vector<FacePoint>> plain_spots(const CrackFace& face, const FaceGeometry& geometry,
+                                                double from, double to);
 
 /// All functions on both sides of one face.
 class FaceBasis {
@@ -86,20 +112,20 @@ class FaceBasis {
   FaceBasis(const BasisContext& context, const CrackFace& face, const ElasticMatrix& elastic);
 
   const FaceGeometry& geometry() const { return geometry_; }
-  /// Places on a stretch, graded towards tips.
-  std::vector<FacePoint> points(double from, double to) const;
-  /// An unknown on both sides is one function. Always in the same order.
-  void evaluate(const Vec2& at, std::vector<FaceFunction>& functions) const;
-
-  /// Jump and mean traction, both as (tangential, normal).
-  struct Field {
-    Vec2 jump{0, 0};      ///< m
-    Vec2 traction{0, 0};  ///< Pa
-  };
-  Field field(const std::vector<FaceFunction>& functions, std::span<const double> state) const;
+  /// On a stretch of the face; near tips the means are over points graded towards them. An unknown
+  /// on both sides is one function; all spots have the same functions in the same order.
+  std::vector<FaceSpot> spots(double from, double to) const;
 
  private:
+  std::vector<std::vector<FacePoint>> points(double from, double to,
+                                             const std::vector<SingularPlace>& tips) const;
+  std::vector<SingularPlace> tip_places() const;
+  void add_functions(const FacePoint& point, double share, FaceSpot& spot) const;
+  /// S shrinks with the distance from the tips.
+  double compliance_at(const Vec2& at, const std::vector<SingularPlace>& tips) const;
+
   CrackFace face_;
+  Vec2 size_;  ///< of the elements, m
   Vec2 plus_corner_, minus_corner_;
   ElasticMatrix elastic_;
   FaceGeometry geometry_;

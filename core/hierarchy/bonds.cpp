@@ -7,41 +7,48 @@ namespace cdca {
 
 namespace {
 
-/// The bilinear functions of both sides as the face sees them.
-void evaluate(const Bond& bond, const Vec2& at, const Vec2& h, const FaceGeometry& face,
-              const ElasticMatrix& elastic, std::vector<FaceFunction>& functions) {
-  functions.resize(8);
-  const auto set = [&](GridIndex e, std::size_t first, double sign, double share) {
-    const ShapeValues n = shape_functions(at - Vec2(e.i, e.j), h);
-    for (std::size_t a = 0; a < 4; ++a) {
-      functions[first + a].jump = sign * n.value[a];
-      functions[first + a].traction = share * traction_of(n.gradient[a], face.normal, elastic);
-    }
-  };
-  set(bond.plus, 0, 1.0, face.plus_share);
-  set(bond.minus, 4, -1.0, 1 - face.plus_share);
+/// The bilinear functions of both sides at a spot.
+FaceSpot spot_of(const Bond& bond, const std::vector<FacePoint>& points, const Vec2& h,
+                 const FaceGeometry& face, const ElasticMatrix& elastic) {
+  FaceSpot spot;
+  spot.compliance = face.compliance;
+  spot.functions.resize(8);
+  for (const FacePoint& p : points) spot.weight += p.weight;
+  for (const FacePoint& p : points) {
+    const auto add = [&](GridIndex e, std::size_t first, double sign, double side_share) {
+      const ShapeValues n = shape_functions(p.at - Vec2(e.i, e.j), h);
+      const double share = p.weight / spot.weight;
+      for (std::size_t a = 0; a < 4; ++a) {
+        FaceFunction& f = spot.functions[first + a];
+        f.jump += sign * share * n.value[a];
+        f.traction += share * side_share * traction_of(n.gradient[a], face.normal, elastic);
+      }
+    };
+    add(bond.plus, 0, 1.0, face.plus_share);
+    add(bond.minus, 4, -1.0, 1 - face.plus_share);
+  }
+  return spot;
 }
 
 }  // namespace
 
-std::vector<Bond> finest_bonds(const ElementCuts& cuts, const std::vector<TipZone>& zones,
-                               const ElasticMatrix& elastic, const FaceSprings& springs) {
+std::vector<Bond> finest_bonds(const ElementCuts& cuts, const ElasticMatrix& elastic,
+                               const FaceSprings& springs) {
   const StructuredGrid& grid = cuts.grid();
   std::vector<Bond> bonds;
-  std::vector<FaceFunction> functions;
   for (const GlobalId id : cuts.touched_elements()) {
     for (const CrackFace& face : cuts.faces_of(grid.element_index(id))) {
       if (face.plus_element == face.minus_element && face.plus_part == face.minus_part) continue;
       const auto stretches = springs.on(face);
       if (stretches.empty()) continue;
-      const FaceGeometry geometry(cuts, zones, face, elastic);
+      const FaceGeometry geometry(cuts, face, elastic);
       Bond bond{face.plus_element, face.minus_element, face.plus_part, face.minus_part};
       for (const FaceStretch& s : stretches) {
-        for (const FacePoint& p : plain_points(face, geometry, s.from, s.to)) {
-          evaluate(bond, p.at, grid.element_size(), geometry, elastic, functions);
-          Eigen::MatrixXd at_point = Eigen::MatrixXd::Zero(16, 16);
-          add_springs(functions, geometry, s, p.weight, at_point);
-          bond.stiffness += at_point;
+        for (const auto& points : plain_spots(face, geometry, s.from, s.to)) {
+          const FaceSpot spot = spot_of(bond, points, grid.element_size(), geometry, elastic);
+          Eigen::MatrixXd at_spot = Eigen::MatrixXd::Zero(16, 16);
+          if (spot.weight > 0.0) add_springs(spot, geometry, s, at_spot);
+          bond.stiffness += at_spot;
         }
       }
       bonds.push_back(bond);

@@ -20,8 +20,8 @@ struct Bond {
 };
 
 /// Of all faces with springs, by bilinear functions alone, on the scale of the grid.
-std::vector<Bond> finest_bonds(const ElementCuts& cuts, const std::vector<TipZone>& zones,
-                               const ElasticMatrix& elastic, const FaceSprings& springs);
+std::vector<Bond> finest_bonds(const ElementCuts& cuts, const ElasticMatrix& elastic,
+                               const FaceSprings& springs);
 
 /// The entries of a bond for the cells that a rank holds. Functions of the others vanish on a side
 /// between two elements.

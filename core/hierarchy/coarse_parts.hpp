@@ -26,10 +26,9 @@ class ScaleParts : public ElementParts {
 class FinestParts final : public ScaleParts {
  public:
   /// springs: null when no faces touch.
-  FinestParts(const ElementCuts& cuts, const std::vector<TipZone>& zones,
-              const ElasticMatrix& elastic, const FaceSprings* springs)
+  FinestParts(const ElementCuts& cuts, const ElasticMatrix& elastic, const FaceSprings* springs)
       : cuts_(cuts), elastic_(elastic) {
-    if (springs) bonds_ = finest_bonds(cuts, zones, elastic, *springs);
+    if (springs) bonds_ = finest_bonds(cuts, elastic, *springs);
   }
   const StructuredGrid& grid() const override { return cuts_.grid(); }
   const std::vector<GlobalId>& touched_elements() const override {

@@ -126,8 +126,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   lay_meshes(basis.mesh);
   factors_.begin_cycle();
   levels_.clear();
-  finest_parts_ =
-      std::make_unique<FinestParts>(basis.cuts, basis.zones, finest.elastic, finest.faces);
+  finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic, finest.faces);
   levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
   if (meshes_.empty()) {
     levels_[0]->set_coarsest();

@@ -19,13 +19,12 @@ double envelope(const ContactSpec& s, double g) {
   return std::max(0.0, s.cohesive_stiffness * (s.critical_gap - g));
 }
 
-ContactAnswer opened(const ContactSpec& s, const ContactHistory& history, double g) {
+ContactAnswer opened(const ContactSpec& s, double largest, double g) {
   ContactAnswer a;
-  a.history = history;
   if (s.law != ContactLaw::cohesive) return a;
-  a.history.largest = std::max(history.largest, g);
+  a.largest = std::max(largest, g);
   // the secant, so that the solve stays definite; unloading goes to the origin
-  const double from = std::max(a.history.largest, 1e-3 * steep_part * s.critical_gap);
+  const double from = std::max(a.largest, 1e-3 * steep_part * s.critical_gap);
   a.normal_spring = envelope(s, from) / from;
   a.normal = a.normal_spring * g;
   if (a.normal_spring > 0.0) a.state = ContactState::stick;
@@ -34,35 +33,30 @@ ContactAnswer opened(const ContactSpec& s, const ContactHistory& history, double
 
 }  // namespace
 
-ContactAnswer contact_answer(const ContactSpec& s, const ContactHistory& history, double g_normal,
-                             double g_tangential) {
-  if (s.law == ContactLaw::none || g_normal > 0.0) return opened(s, history, g_normal);
+ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactAnswer& before,
+                             const ContactGap& gap) {
+  if (s.law == ContactLaw::none || gap.normal > 0.0) return opened(s, largest, gap.normal);
   ContactAnswer a;
-  a.history = history;
+  a.largest = largest;
   a.normal_spring = s.normal_stiffness;
-  a.normal = s.normal_stiffness * g_normal;
+  a.normal = s.normal_stiffness * gap.normal;
   a.state = ContactState::slip;
-  if (s.law == ContactLaw::frictionless) {
-    a.history.slip = g_tangential;
-    return a;
-  }
-  const double trial = s.tangential_stiffness * (g_tangential - history.slip);
+  if (s.law == ContactLaw::frictionless || s.tangential_stiffness <= 0.0) return a;
+  const double trial = s.tangential_stiffness * gap.tangential;
   const double limit = s.friction * std::abs(a.normal) + s.cohesion;
-  if (std::abs(trial) <= limit) {
+  const bool turns = before.slides() && trial * before.tangential < 0.0;
+  if (turns || std::abs(trial) <= limit) {
     a.state = ContactState::stick;
     a.tangential = trial;
     a.tangential_spring = s.tangential_stiffness;
-    a.offset = -s.tangential_stiffness * history.slip;
     return a;
   }
-  a.tangential = a.offset = std::copysign(limit, trial);
-  a.history.slip = g_tangential - a.tangential / s.tangential_stiffness;
+  a.tangential = std::copysign(limit, trial);
   return a;
 }
 
-ContactAnswer touching(const ContactSpec& s, const ContactHistory& history) {
-  if (s.law == ContactLaw::none) return {};
-  return contact_answer(s, history, 0.0, history.slip);
+ContactAnswer touching(const ContactSpec& s) {
+  return s.law == ContactLaw::none ? ContactAnswer() : contact_answer(s, 0.0, {}, {});
 }
 
 }  // namespace cdca

@@ -21,10 +21,11 @@ struct ContactSpec {
 
 enum class ContactState : std::int32_t { open, stick, slip };
 
-/// What a patch of faces remembers from one equilibrium to the next.
-struct ContactHistory {
-  double slip = 0.0;     ///< m, that does not come back on unloading
-  double largest = 0.0;  ///< m, largest opening so far; cohesive faces
+/// What a patch is asked with: means over it, m. The gap of a spring is its traction over its
+/// stiffness.
+struct ContactGap {
+  double normal = 0.0;      ///< > 0: open
+  double tangential = 0.0;  ///< of a spring that stands where the faces stuck last
 };
 
 /// The answer of a patch to its mean gap. Tractions as stresses: tension positive; the tangential
@@ -33,22 +34,25 @@ struct ContactAnswer {
   ContactState state = ContactState::open;
   double normal = 0.0;      ///< Pa
   double tangential = 0.0;  ///< Pa
-  /// Springs that give these tractions in the next solve: normal = normal_spring g_N,
-  /// tangential = tangential_spring g_T + offset.
-  double normal_spring = 0.0;      ///< Pa/m
-  double tangential_spring = 0.0;  ///< Pa/m
-  double offset = 0.0;             ///< Pa
-  ContactHistory history;          ///< after this equilibrium, should it be accepted
+  /// Springs that give these tractions in the next solve, Pa/m. Faces that slide have no tangential
+  /// spring: their traction is given.
+  double normal_spring = 0.0;
+  double tangential_spring = 0.0;
+  double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
+
+  bool slides() const { return state == ContactState::slip; }
 };
 
 /// Eq. 10-13 with a return mapping in the tangential direction: in slip the traction keeps the
 /// direction of the trial traction, t = (mu |p_N| + c_c) p_trial / |p_trial|.
-/// g_N > 0 is open. Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C
-/// over a hundredth of g_C, softens as Eq. 12 says, and goes back to the origin on unloading.
-ContactAnswer contact_answer(const ContactSpec& spec, const ContactHistory& history,
-                             double g_normal, double g_tangential);
+/// A patch that slid one way sticks before it slides the other way: `before` is its last answer.
+/// Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C over a hundredth of
+/// g_C, softens as Eq. 12 says, and goes back to the origin on unloading. largest: their largest
+/// opening so far, m.
+ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactAnswer& before,
+                             const ContactGap& gap);
 
 /// Faces that have not been looked at yet: they touch and stick.
-ContactAnswer touching(const ContactSpec& spec, const ContactHistory& history);
+ContactAnswer touching(const ContactSpec& spec);
 
 }  // namespace cdca

@@ -284,6 +284,22 @@ class TipIntegral {
   std::vector<BasisFunction> functions_;
 };
 
+/// The patch at a tip, when its faces touch there.
+const ContactPatch* touching_patch(const ExternalLoads& loads, const std::vector<Crack>& cracks,
+                                   const TipZone& zone) {
+  if (!loads.contact) return nullptr;
+  const Crack& crack = cracks[std::size_t(zone.crack)];
+  const int segment = zone.end == 0 ? 0 : int(crack.segments()) - 1;
+  const ContactPatch* patch = loads.contact->find(zone.crack, segment, crack.end_point(zone.end));
+  return patch && patch->now.state != ContactState::open ? patch : nullptr;
+}
+
+/// K_I that opens the patch at the tip by its mean gap: g(r) = 8 K_I / E' sqrt(r / 2 pi).
+double fitted_opening(const ContactPatch& patch, const Material& material) {
+  return 3.0 / 16 * patch.gap.normal * material.fracture_modulus() *
+         std::sqrt(2 * std::numbers::pi / patch.length);
+}
+
 }  // namespace
 
 std::vector<StressIntensity> stress_intensities(
@@ -305,6 +321,10 @@ std::vector<StressIntensity> stress_intensities(
   for (std::size_t z = 0; z < found.size(); ++z) {
     found[z].k1 = 0.5 * material.fracture_modulus() * sums[2 * z];
     found[z].k2 = 0.5 * material.fracture_modulus() * sums[2 * z + 1];
+    if (const ContactPatch* patch = touching_patch(loads, cracks, context.zones[z])) {
+      found[z].k1 = fitted_opening(*patch, material);
+      found[z].k1_fitted = true;
+    }
   }
   return found;
 }

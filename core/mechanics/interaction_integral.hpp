@@ -18,7 +18,8 @@ struct StressIntensity {
   int end = 0;
   double k1 = 0.0;
   double k2 = 0.0;
-  double radius = 0.0;  ///< of the domain, m
+  double radius = 0.0;     ///< of the domain, m
+  bool k1_fitted = false;  ///< K_I from the gap at the tip
 };
 
 /// How far the domain reaches from the tip, in element sizes: as far as wanted, less where a rim,
@@ -39,6 +40,9 @@ struct DomainReach {
 /// s_ij m_j = t_i the traction there; on the straight faces behind the tip only t_i u'_i,1 is left
 /// of it. The primed field is continued up to the faces of a bent crack, so the formula is exact
 /// with bends, other cracks and rims inside the domain.
+///
+/// Where faces touch at the tip itself, their normal traction there is known to some percent only,
+/// and the integral weighs it with 1 / sqrt(r): K_I is fitted to the gap instead, and is all but 0.
 /// state: with ghosts.
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,

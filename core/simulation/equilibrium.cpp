@@ -82,7 +82,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   for (result.contact_iterations = 1; result.contact_iterations <= most;
        ++result.contact_iterations) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
-    model.contact().add_forces(model.basis(), given.faces);
+    model.add_contact_forces(given.faces);
     const SolverReport report = solve_once(model, solver, load_factor, given);
     worst.iterations = std::max(worst.iterations, report.iterations);
     worst.residual = report.residual;
@@ -117,9 +117,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   const CellStiffness& cells = model.stiffness();
   std::vector<double> product(all, 0.0);
   cells.apply(model.state(), product);
-  result.strain_energy =
-      0.5 * cells.dot(model.state(), product) +
-      model.contact().energy_correction(model.basis(), model.state(), model.communicator());
+  result.strain_energy = 0.5 * cells.dot(model.state(), product) + model.contact_energy();
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
   result.supports.assign(all, 0.0);
   for (const HeldUnknown& h : model.supports().held()) {

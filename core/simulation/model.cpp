@@ -51,8 +51,7 @@ void Model::place_cracks() {
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
   refuse_hidden_cracks();
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
-  contact_ = ContactPatches(grid_, material_.elastic_matrix(), contact_laws(), registry_.cracks(),
-                            nullptr);
+  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
 }
 
 std::vector<ContactSpec> Model::contact_laws() const {
@@ -63,9 +62,11 @@ std::vector<ContactSpec> Model::contact_laws() const {
 }
 
 void Model::build_cells() {
+  const ContactSpots::Slips slips = spots_.slips();
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
   supports_ = Supports(basis(), spec_.boundaries);
   state_.assign(std::size_t(unknowns_.count()), 0.0);
+  spots_ = ContactSpots(basis(), registry_.cracks(), contact_, material_.elastic_matrix(), slips);
   find_bodies();
 }
 
@@ -75,15 +76,14 @@ void Model::find_bodies() {
       basis(), supports_.flags(unknowns_.count()),
       [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
   if (contact_.empty()) return;
-  contact_.find_bodies(
-      basis(),
+  spots_.find_bodies(
       [&](GridIndex e, int part) {
         const auto nodes = mesh_.element_nodes(e);
         std::size_t a = 0;
         while (nodes[a] < 0) ++a;
         return int(bodies_->body_of(nodes[a], unknowns_.piece(nodes[a], (a + 2) % 4, part)));
       },
-      communicator_);
+      contact_, communicator_);
 }
 
 std::vector<char> Model::held_bodies(bool touching_only) const {
@@ -103,8 +103,23 @@ std::vector<char> Model::held_bodies(bool touching_only) const {
 }
 
 ContactPatches::Change Model::respond_to_gaps() {
-  contact_.measure(basis(), state_, communicator_);
+  spots_.measure(state_, contact_, communicator_);
   return contact_.respond();
+}
+
+void Model::add_contact_forces(std::span<double> forces) const {
+  spots_.add_forces(contact_, unknowns_.owned(), forces);
+}
+
+double Model::contact_energy() const {
+  return contact_.empty() ? 0.0 : spots_.energy_correction(contact_, state_, communicator_);
+}
+
+double Model::accept_contact() {
+  if (contact_.empty()) return 0.0;
+  const double work = spots_.accept(contact_, state_, communicator_);
+  contact_.accept();
+  return work;
 }
 
 void Model::build_stiffness() {
@@ -128,8 +143,7 @@ void Model::lay_cracks(CrackRegistry registry) {
   const std::vector<TipZone> old_zones = std::move(zones_);
   const std::vector<double> old_state = std::move(state_);
   registry_ = std::move(registry);
-  contact_ = ContactPatches(grid_, material_.elastic_matrix(), contact_laws(), registry_.cracks(),
-                            &contact_);
+  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), &contact_);
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()), old_cuts);
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
   build_cells();

@@ -6,7 +6,7 @@
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/hierarchy/hierarchy.hpp"
-#include "core/mechanics/contact_patches.hpp"
+#include "core/mechanics/contact_spots.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
@@ -54,8 +54,13 @@ class Model {
   const ContactPatches& contact() const { return contact_; }
   /// Looks at the gaps of the state, which gives the patches new answers. Collective.
   ContactPatches::Change respond_to_gaps();
-  /// The slip of this equilibrium becomes history.
-  void accept_slip() { contact_.accept(); }
+  /// Adds what touching faces exert besides their springs, N per metre of thickness on own cells.
+  void add_contact_forces(std::span<double> forces) const;
+  /// Stored in the springs of faces less what u K u / 2 counts, J per metre. Collective.
+  double contact_energy() const;
+  /// Slip, opening and traction of this equilibrium become history. Returns the work that has gone
+  /// into friction, J per metre. Collective.
+  double accept_contact();
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
@@ -102,6 +107,7 @@ class Model {
   Supports supports_;
   std::unique_ptr<Bodies> bodies_;
   ContactPatches contact_;
+  ContactSpots spots_;
   StiffnessCache cache_;
   ElasticMatrix elastic_;
   std::unique_ptr<CellStiffness> stiffness_;

@@ -27,7 +27,7 @@ void fill(TipRecord& tip, const TipAssessment& assessment) {
   const TipJudgement& j = assessment.judgement;
   tip.k1 = assessment.intensity.k1;
   tip.k2 = assessment.intensity.k2;
-  tip.k_from = "integral";
+  tip.k_from = assessment.intensity.k1_fitted ? "fit" : "integral";
   tip.u_tension = j.u_tension;
   tip.u_shear = j.u_shear;
   tip.angle_deg =

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Faces that touch: patch tests (M3), the sliding block (M4), stick and slip (M5), closed inclined
+/// cracks, and cohesive faces.
+#include "tests/plates.hpp"
+#include "tests/verification/reference_solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace cdca::testing {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+ContactSpec coulomb(double normal, double tangential, double friction, double cohesion = 0.0) {
+  return {ContactLaw::coulomb, normal, tangential, friction, cohesion, 0.0, 0.0};
+}
+
+/// A crack through the unit plate under an angle, through (0.5, at).
+std::vector<Vec2> cut(double degrees, double at) {
+  const double slope = std::tan(degrees * degree);
+  return {{0, at - 0.5 * slope}, {1, at + 0.5 * slope}};
+}
+
+/// The bottom rests on rollers, the top is pressed down by 1.
+CaseSpec pressed(int n, const std::vector<std::vector<Vec2>>& cuts, const ContactSpec& contact) {
+  CaseSpec spec = plate({0, 0}, {1, 1}, n, n);
+  for (const auto& points : cuts) {
+    add_crack(spec, points);
+    spec.cracks.back().contact = contact;
+  }
+  BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
+  top.traction = constant_load(0, -1);
+  bottom.displacement[1] = proportional_load(0);
+  pin.displacement[0] = proportional_load(0);
+  spec.boundaries = {top, bottom, pin};
+  return spec;
+}
+
+void expect_uniform(const Solved& s, const Voigt& stress) {
+  for (int j = 0; j < 17; ++j) {
+    for (int i = 0; i < 17; ++i) {
+      const Vec2 x((i + 0.37) / 17, (j + 0.41) / 17);
+      const Voigt computed = s.model->material().stress(s.model->field_at(x).gradient);
+      EXPECT_LT((computed - stress).norm(), 1e-8 * stress.norm()) << x.transpose();
+    }
+  }
+}
+
+class ContactPatch : public ::testing::TestWithParam<double> {};
+
+/// M3: the stress stays uniform, and the faces give way by s_n / k_N and t / k_T everywhere.
+TEST_P(ContactPatch, UniformStressPassesThroughCuts) {
+  const double angle = GetParam();
+  const double normal = 4e4, tangential = 3e3;
+  const std::vector<std::vector<std::vector<Vec2>>> layouts{
+      {cut(angle, 0.52)}, {cut(angle, 0.34), cut(-0.5 * angle, 0.71)}};
+  for (const auto& cuts : layouts) {
+    const Solved s = solved(pressed(13, cuts, coulomb(normal, tangential, 0.6)));
+    expect_uniform(s, {0, -1, 0});
+    for (const auto& p : s.model->contact().patches()) {
+      const auto& points = cuts[std::size_t(p.crack)];
+      const Vec2 t = (points[1] - points[0]).normalized();
+      EXPECT_EQ(p.now.state, ContactState::stick);
+      // where a path passes a node it may have been moved by 1e-6 of an element
+      EXPECT_NEAR(p.gap.normal, -t.x() * t.x() / normal, 1e-6 / normal);
+      EXPECT_NEAR(p.gap.tangential, -t.x() * t.y() / tangential, 1e-6 / tangential);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, ContactPatch, ::testing::Values(0.0, 10.0, 22.0, 30.0));
+
+/// Two blocks; the top of the upper one is down by `down`, and moved sideways by the load factor.
+struct Blocks {
+  static constexpr double normal = 5e4, tangential = 2e4, friction = 0.4, down = 1e-3;
+  std::unique_ptr<Model> model;
+
+  explicit Blocks(double at) {
+    CaseSpec spec = plate({0, 0}, {1, 2}, 7, 14);
+    add_crack(spec, {{0, at}, {1, at}});
+    spec.cracks.back().contact = coulomb(normal, tangential, friction);
+    BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom);
+    top.displacement[0] = LoadValue{[](double, double, double s) { return s; }, true, "s"};
+    top.displacement[1] = LoadValue{[](double, double, double) { return -down; }, false, "-d"};
+    bottom.displacement = constant_load(0, 0);
+    spec.boundaries = {top, bottom};
+    model = built(spec);
+  }
+  /// Sideways force on the top over the force that presses.
+  double force_at(double s) {
+    const Equilibrium e = find_equilibrium(*model, *make_solver(*model), s);
+    model->accept_contact();
+    return e.reactions.at(0).x() / std::abs(e.reactions.at(0).y());
+  }
+};
+
+class SlidingBlock : public ::testing::TestWithParam<double> {};
+
+/// M4: below the limit the force grows with the move; at it the block slides, whatever more; on the
+/// way back it sticks first, and then slides the other way.
+TEST_P(SlidingBlock, SticksSlipsAndTurnsRound) {
+  Blocks blocks(GetParam());
+  constexpr double mu = Blocks::friction, exact = 1e-8;
+  EXPECT_NEAR(blocks.force_at(0), 0.0, exact);
+  const double first = blocks.force_at(1e-5), second = blocks.force_at(2e-5);
+  EXPECT_GT(first, 0.0);
+  EXPECT_NEAR(second, 2 * first, 1e-6 * first) << "nothing has slipped yet";
+  double before = second;
+  for (const double s : {1e-4, 2e-4, 4e-4}) {
+    const double now = blocks.force_at(s);
+    EXPECT_GT(now, before);
+    EXPECT_LE(now, mu + exact);
+    before = now;
+  }
+  for (const double s : {4e-3, 5e-3, 9e-3}) EXPECT_NEAR(blocks.force_at(s), mu, exact) << s;
+  const double back = blocks.force_at(9e-3 - 1e-5);
+  EXPECT_LT(back, mu - 0.5 * first) << "sticks at once on the way back";
+  EXPECT_GT(back, mu - 1.1 * first);
+  for (const double s : {2e-3, 0.0, -1e-3}) EXPECT_NEAR(blocks.force_at(s), -mu, exact) << s;
+  EXPECT_NEAR(blocks.force_at(6e-3), mu, exact);
+}
+
+INSTANTIATE_TEST_SUITE_P(Heights, SlidingBlock, ::testing::Values(1.0, 1.04));
+
+}  // namespace
+}  // namespace cdca::testing
