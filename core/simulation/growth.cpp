@@ -130,7 +130,8 @@ std::vector<Increment> increments_of(const Model& model, const std::vector<Growt
     increments.push_back({plan.crack, plan.end, from,
                           from + plan.length * turned(crack.end_tangent(plan.end), plan.angle)});
   }
-  return resolve_meetings(model.registry(), model.body(), std::move(increments));
+  return resolve_meetings(model.registry(), model.body(), model.touch_distance(),
+                          std::move(increments));
 }
 
 void apply_increments(const std::vector<Increment>& increments, int step, int cycle,
