@@ -71,12 +71,6 @@ class CrackRegistry {
   std::uint64_t hash() const;
 
  private:
-  bool end_on_rim(std::size_t crack, int end, const Rectangle& body);
-  bool end_on_end(std::size_t crack, int end);
-  bool end_on_face(std::size_t crack, int end);
-  void end_initially(std::size_t crack, int end, const Vec2& at, const CrackEnd& becomes);
-  void find_crossings();
-
   std::vector<Crack> cracks_;
   std::vector<Event> events_;
   double touch_ = 0.0;  ///< m

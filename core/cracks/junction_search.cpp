@@ -159,7 +159,8 @@ class JunctionSearch {
   Vec2 nearest_point() {
     put_end(place(0.0));
     const CrackPaths paths(grid_, cracks_);
-    return grid_.from_grid(PathPoints(paths, cracks_.size()).nearest(start_, state().partner, own_segment()));
+    return grid_.from_grid(
+        PathPoints(paths, cracks_.size()).nearest(start_, state().partner, own_segment()));
   }
 
   void put_end(const Vec2& at) {
@@ -200,8 +201,9 @@ CrackPaths lay_paths(const StructuredGrid& grid, CrackRegistry& registry) {
     }
     if (!moved) return paths;
   }
-  throw SolveError("a joined crack could not be brought to end on its partner; this is an error "
-                   "in the program.");
+  throw SolveError(
+      "a joined crack could not be brought to end on its partner; this is an error "
+      "in the program.");
 }
 
 }  // namespace cdca

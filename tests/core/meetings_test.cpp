@@ -134,7 +134,8 @@ TEST(Coalescence, AGrazedFaceIsMetWhereItIsCrossed) {
 }
 
 TEST(Coalescence, AStepThatEndsWithinTouchOfAFaceEndsOnIt) {
-  const auto incs = resolved({{{3, 4}, {6, 4.2}}, {{2, 4.3}, {12, 4.3}}}, {{0, 1, Vec2(2, 0.0995)}});
+  const auto incs =
+      resolved({{{3, 4}, {6, 4.2}}, {{2, 4.3}, {12, 4.3}}}, {{0, 1, Vec2(2, 0.0995)}});
   expect_end(incs[0], Vec2(8, 4.3), TipState::coalesced, 1);
 }
 
@@ -196,15 +197,15 @@ TEST(Connection, HeadOnTipsMeetMidway) {
     expect_end(incs[0], Vec2(5 + gap / 2, 4), TipState::connected, 1, 1);
     expect_end(incs[1], Vec2(5 + gap / 2, 4), TipState::connected, 0, 1);
   }
-  const auto apart = resolved({{{2, 4}, {5, 4}}, {{13, 4}, {9.01, 4}}},
-                              {{0, 1, Vec2(2, 0)}, {1, 1, Vec2(-2, 0)}});
+  const auto apart =
+      resolved({{{2, 4}, {5, 4}}, {{13, 4}, {9.01, 4}}}, {{0, 1, Vec2(2, 0)}, {1, 1, Vec2(-2, 0)}});
   expect_free(apart[0], Vec2(2, 0));
   expect_free(apart[1], Vec2(-2, 0));
 }
 
 TEST(Connection, HeadOnTipsShareTheGapByTheirSteps) {
-  const auto incs = resolved({{{2, 4}, {5, 4}}, {{9, 4}, {7, 4}}},
-                             {{0, 1, Vec2(3, 0)}, {1, 1, Vec2(-1, 0)}});
+  const auto incs =
+      resolved({{{2, 4}, {5, 4}}, {{9, 4}, {7, 4}}}, {{0, 1, Vec2(3, 0)}, {1, 1, Vec2(-1, 0)}});
   expect_end(incs[0], Vec2(6.5, 4), TipState::connected, 1, 1);
   expect_end(incs[1], Vec2(6.5, 4), TipState::connected, 0, 1);
 }
@@ -228,8 +229,8 @@ TEST(Connection, ATipThatDoesNotGrowIsMetAsATip) {
 }
 
 TEST(Connection, AGrowingTipLeavesItsPlaceAsAFace) {
-  const auto incs = resolved({{{2, 4}, {5, 4}}, {{6, 1}, {6, 4}}},
-                             {{0, 1, Vec2(2, 0)}, {1, 1, Vec2(0, 2)}});
+  const auto incs =
+      resolved({{{2, 4}, {5, 4}}, {{6, 1}, {6, 4}}}, {{0, 1, Vec2(2, 0)}, {1, 1, Vec2(0, 2)}});
   expect_end(incs[0], Vec2(6, 4), TipState::coalesced, 1);
   expect_free(incs[1], Vec2(0, 2));
 }
@@ -240,8 +241,7 @@ TEST(Connection, TheTipsOfOneCrackMeet) {
   expect_end(incs[0], Vec2(6, 6), TipState::connected, 0, 1);
   expect_end(incs[1], Vec2(6, 6), TipState::connected, 0, 0);
   CrackRegistry registry = registry_of(c);
-  for (const Increment& i : incs)
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, 1, 0);
+  for (const Increment& i : incs) registry.advance(i.crack, i.end, i.to, i.state, i.partner, 1, 0);
   EXPECT_EQ(registry.active_tips(), 0);
   EXPECT_EQ(registry.cracks()[0].points.front(), registry.cracks()[0].points.back());
 }
@@ -296,9 +296,13 @@ TEST(Order, ThreeStepsMeetInOnePlace) {
 
 TEST(Order, DoesNotDependOnThatOfTheInput) {
   std::mt19937 random(3);
-  const Polylines cracks{{{2, 4}, {5, 4}}, {{6, 6}, {6, 5}}, {{5.5, 1}, {5.5, 2.2}}, {{9, 4}, {7, 4}}};
-  std::vector<Step> steps{{0, 1, Vec2(2, 0)}, {1, 1, Vec2(0, -1.6)}, {2, 1, Vec2(0, 2.4)},
-                          {3, 1, Vec2(-1.5, 0)}, {3, 0, Vec2(1.5, 0)}};
+  const Polylines cracks{
+      {{2, 4}, {5, 4}}, {{6, 6}, {6, 5}}, {{5.5, 1}, {5.5, 2.2}}, {{9, 4}, {7, 4}}};
+  std::vector<Step> steps{{0, 1, Vec2(2, 0)},
+                          {1, 1, Vec2(0, -1.6)},
+                          {2, 1, Vec2(0, 2.4)},
+                          {3, 1, Vec2(-1.5, 0)},
+                          {3, 0, Vec2(1.5, 0)}};
   const auto first = resolved(cracks, steps);
   for (int k = 0; k < 20; ++k) {
     std::shuffle(steps.begin(), steps.end(), random);
@@ -386,9 +390,8 @@ TEST(MeetingsOfACrowd, LeaveACleanNetwork) {
       for (const Increment& i : incs)
         if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack);
       for (const Increment& i : incs) expect_clean(registry, i);
-      met += int(std::count_if(incs.begin(), incs.end(), [](const Increment& i) {
-        return i.state != TipState::active;
-      }));
+      met += int(std::count_if(incs.begin(), incs.end(),
+                               [](const Increment& i) { return i.state != TipState::active; }));
     }
   }
   EXPECT_GT(met, 10000);
