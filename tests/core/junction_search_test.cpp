@@ -66,7 +66,8 @@ int regions(const StructuredGrid& grid, CrackRegistry& registry) {
 
 TEST(ReachTest, TellsShortFromPast) {
   const auto reach = [](double y) {
-    CrackRegistry registry = registry_of(square, {{{1.3, 2.4}, {6.6, 2.4}}, {{3.3, 5.2}, {3.3, 2.4}}});
+    CrackRegistry registry =
+        registry_of(square, {{{1.3, 2.4}, {6.6, 2.4}}, {{3.3, 5.2}, {3.3, 2.4}}});
     registry.place_end(1, 1, Vec2(3.3, y));
     return reach_of(CrackPaths(square, registry.cracks()), registry.cracks(), 1, 1);
   };
@@ -80,8 +81,8 @@ TEST(ReachTest, TellsShortFromPast) {
 
 TEST(ReachTest, TheStartOfTheSegmentIsNoPassing) {
   // a branch between two faces of one partner: its start does not count for its end
-  CrackRegistry registry =
-      registry_of(square, {{{2, 1.5}, {6, 1.5}, {6, 1.508}, {2, 1.508}}, {{3.3, 1.5}, {3.3, 1.508}}});
+  CrackRegistry registry = registry_of(
+      square, {{{2, 1.5}, {6, 1.5}, {6, 1.508}, {2, 1.508}}, {{3.3, 1.5}, {3.3, 1.508}}});
   registry.place_end(1, 1, Vec2(3.3, 1.5079));
   EXPECT_EQ(reach_of(CrackPaths(square, registry.cracks()), registry.cracks(), 1, 1),
             Reach::short_of);
@@ -127,7 +128,8 @@ TEST(JunctionSearchTest, EndsInOnePlaceMoveTogether) {
 }
 
 TEST(JunctionSearchTest, ALassoEndsOnItself) {
-  const std::vector<Vec2> lasso{{0, 1.2}, {5.3, 1.7}, {5.6, 4.3}, {2.4, 4.1}, {2.6, 1.2 + 0.5 * 2.6 / 5.3}};
+  const std::vector<Vec2> lasso{
+      {0, 1.2}, {5.3, 1.7}, {5.6, 4.3}, {2.4, 4.1}, {2.6, 1.2 + 0.5 * 2.6 / 5.3}};
   CrackRegistry registry = registry_of(square, {lasso});
   EXPECT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced);
   EXPECT_EQ(registry.cracks()[0].ends[1].partner, 0);
@@ -275,7 +277,8 @@ TEST(JunctionsOnTheGrid, AreThereAfterGrowth) {
     if (!arrives_freely(stem, line)) continue;
     ++tried;
     const Vec2 to = stem.back() + std::abs(draw.tiny()) * (stem.back() - stem[stem.size() - 2]);
-    stem.back() = stem[stem.size() - 2] + draw.any(0.3, 0.9) * (stem.back() - stem[stem.size() - 2]);
+    stem.back() =
+        stem[stem.size() - 2] + draw.any(0.3, 0.9) * (stem.back() - stem[stem.size() - 2]);
     CrackRegistry registry = registry_of(square, {line, stem});
     if (registry.cracks()[1].ends[1].state != TipState::active) continue;
     const auto incs =
