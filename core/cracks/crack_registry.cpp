@@ -41,9 +41,7 @@ void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int 
   Crack& crack = cracks_[std::size_t(c)];
   const bool at_start = end == 0;
   crack.ends[std::size_t(end)] = {state, partner};
-  if (state != TipState::active && (to - crack.end_point(end)).norm() <= touch_) {
-    place_end(c, end, to);
-  } else {
+  if (to != crack.end_point(end)) {
     crack.points.insert(at_start ? crack.points.begin() : crack.points.end(), to);
     crack.age.insert(at_start ? crack.age.begin() : crack.age.end(), step);
   }

@@ -52,8 +52,8 @@ class CrackRegistry {
   void resolve_initial_meetings(const Rectangle& body, double touch);
 
   /// Lengthens a crack at one end by a straight segment to `to` (m), which appears in load step
-  /// `step`; the end takes the given state. Ends that meet something write an event; if they do so
-  /// within touch, the end moves there and no segment is added.
+  /// `step`; the end takes the given state. Ends that meet something write an event. A step to
+  /// where the end is already adds no segment.
   void advance(int crack, int end, const Vec2& to, TipState state, int partner, int step,
                int cycle);
   /// Moves an end to `at` (m), and all ends that lie in just the same place with it.
@@ -73,7 +73,6 @@ class CrackRegistry {
  private:
   std::vector<Crack> cracks_;
   std::vector<Event> events_;
-  double touch_ = 0.0;  ///< m
 };
 
 /// Connected groups of cracks, and whether one of them reaches from side to side.

@@ -159,7 +159,6 @@ class InitialMeetings {
 }  // namespace
 
 void CrackRegistry::resolve_initial_meetings(const Rectangle& body, double touch) {
-  touch_ = touch;
   InitialMeetings meetings(*this, body, touch);
   meetings.find_ends();
   meetings.find_crossings();

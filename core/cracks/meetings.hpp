@@ -39,4 +39,9 @@ struct Increment {
 std::vector<Increment> resolve_meetings(const CrackRegistry& registry, const Rectangle& body,
                                         double touch, std::vector<Increment> increments);
 
+/// Applies resolved increments of one growth cycle. One that ends within `touch` (m) of the tip
+/// moves it there and adds no segment.
+void apply_increments(const std::vector<Increment>& increments, double touch, int step, int cycle,
+                      CrackRegistry& registry);
+
 }  // namespace cdca

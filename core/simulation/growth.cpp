@@ -134,16 +134,6 @@ std::vector<Increment> increments_of(const Model& model, const std::vector<Growt
                           std::move(increments));
 }
 
-void apply_increments(const std::vector<Increment>& increments, int step, int cycle,
-                      CrackRegistry& registry) {
-  for (const Increment& i : increments) {
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, step, cycle);
-  }
-  for (const Increment& i : increments) {
-    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack);
-  }
-}
-
 void correct_directions(Model& model, const EquilibriumSolver& solver, double load_factor,
                         std::vector<GrowthPlan>& plans) {
   const bool any =
@@ -153,7 +143,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
   const bool joined = model.joins_loaded_boundaries();
   for (int trial = 0; trial < most_trials; ++trial) {
     CrackRegistry ahead = registry;
-    apply_increments(increments_of(model, plans), 1, 0, ahead);
+    apply_increments(increments_of(model, plans), model.touch_distance(), 1, 0, ahead);
     model.lay_cracks(ahead);
     if (joined && !model.joins_loaded_boundaries()) {
       // the step cuts the body apart: there is no field to correct it by

@@ -44,7 +44,7 @@ double greatest_index(const std::vector<TipAssessment>& tips) {
 
 void advance(Model& model, const std::vector<Increment>& increments, int step, int cycle) {
   CrackRegistry registry = model.registry();
-  apply_increments(increments, step, cycle, registry);
+  apply_increments(increments, model.touch_distance(), step, cycle, registry);
   model.lay_cracks(std::move(registry));
 }
 

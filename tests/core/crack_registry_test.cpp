@@ -255,12 +255,13 @@ TEST(CrackRegistryTest, GrowthThatMeetsSomethingEndsTheTipWithAnEvent) {
   EXPECT_EQ(registry.events()[1].kind, EventKind::boundary);
 }
 
-TEST(CrackRegistryTest, AStepWithinTouchMovesTheEndInstead) {
-  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{4.0005, 2}, {4.0005, 6}}});
-  registry.advance(0, 1, Vec2(4.0005, 3), TipState::coalesced, 1, 4, 2);
-  EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4.0005, 3}}));
+TEST(CrackRegistryTest, AStepToWhereTheEndIsAddsNoSegment) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
+  registry.advance(0, 1, Vec2(4, 3), TipState::coalesced, 1, 4, 2);
+  EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}}));
   EXPECT_EQ(registry.cracks()[0].age.size(), 1u);
   EXPECT_EQ(end_of(registry, 0, 1).state, TipState::coalesced);
+  EXPECT_EQ(registry.events().size(), 1u);
 }
 
 TEST(CrackRegistryTest, EndThatWasMetIsATipNoMore) {

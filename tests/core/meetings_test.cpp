@@ -241,7 +241,7 @@ TEST(Connection, TheTipsOfOneCrackMeet) {
   expect_end(incs[0], Vec2(6, 6), TipState::connected, 0, 1);
   expect_end(incs[1], Vec2(6, 6), TipState::connected, 0, 0);
   CrackRegistry registry = registry_of(c);
-  for (const Increment& i : incs) registry.advance(i.crack, i.end, i.to, i.state, i.partner, 1, 0);
+  apply_increments(incs, touch, 1, 0, registry);
   EXPECT_EQ(registry.active_tips(), 0);
   EXPECT_EQ(registry.cracks()[0].points.front(), registry.cracks()[0].points.back());
 }
@@ -249,6 +249,17 @@ TEST(Connection, TheTipsOfOneCrackMeet) {
 TEST(Connection, OneTipOfACrackMeetsItsOther) {
   const Polylines c{{{6, 5}, {4, 4}, {4, 8}, {6, 7}}};
   expect_end(resolved(c, {{0, 1, Vec2(0, -2.5)}})[0], Vec2(6, 5), TipState::connected, 0, 0);
+}
+
+TEST(Coalescence, WithinTouchTheEndMovesInsteadOfAStep) {
+  // a tip that has come within touch of a face without having ended on it
+  CrackRegistry registry = registry_of({{{2, 2}, {4, 3}}, {{6, 2}, {6, 5}}});
+  registry.advance(0, 1, Vec2(5.9995, 3), TipState::active, -1, 1, 0);
+  const auto incs = resolved(registry, {{0, 1, Vec2(1, 0)}});
+  apply_increments(incs, touch, 2, 0, registry);
+  EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}, {6, 3}}));
+  EXPECT_EQ(registry.cracks()[0].age, (std::vector<int>{0, 1}));
+  EXPECT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced);
 }
 
 TEST(Order, AStepCutShortMeetsNothingFurtherOn) {
@@ -385,10 +396,7 @@ TEST(MeetingsOfACrowd, LeaveACleanNetwork) {
     CrackRegistry registry = crowd(random);
     for (int cycle = 1; cycle <= 5; ++cycle) {
       const auto incs = resolved(registry, random_steps(registry, random));
-      for (const Increment& i : incs)
-        registry.advance(i.crack, i.end, i.to, i.state, i.partner, 1, cycle);
-      for (const Increment& i : incs)
-        if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack);
+      apply_increments(incs, touch, 1, cycle, registry);
       for (const Increment& i : incs) expect_clean(registry, i);
       met += int(std::count_if(incs.begin(), incs.end(),
                                [](const Increment& i) { return i.state != TipState::active; }));
