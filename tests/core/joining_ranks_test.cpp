@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Joining cracks, their junctions and the fragments they cut off on any number of ranks, with
 /// rank borders through all of them.
+#include "core/cracks/random_cracks.hpp"
 #include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
 
@@ -107,6 +108,20 @@ TEST(JoiningParallel, FragmentsAreNotedOnceEachAndAlike) {
   EXPECT_EQ(one.status, "completed") << "the body between the blocks still carries";
   expect_same(one, together(two_blocks(), world_partitioner()));
   expect_same(one, together(two_blocks(), scattered(1)));
+}
+
+/// Random cracks that grow into each other.
+TEST(JoiningParallel, ANetworkGrowsAlike) {
+  CrackFieldSpec field{18, {0.15, 0.3}, {0, 180}, {Vec2(0.05, 0.05), Vec2(1.15, 1.55)}, 3};
+  std::vector<std::vector<Vec2>> cracks;
+  for (const auto& ends : random_cracks(field)) cracks.push_back({ends[0], ends[1]});
+  CaseSpec spec = in_tension(cracks);
+  spec.load_factors = {2.0};
+  spec.growth.step_length = {2.5, 2.5};
+  spec.growth.cycles = 5;
+  const Summary one = alone(spec);
+  EXPECT_GE(events_of(one, "coalescence").size() + events_of(one, "connection").size(), 4u);
+  expect_same(one, together(spec, scattered(2)));
 }
 
 }  // namespace
