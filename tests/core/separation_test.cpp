@@ -54,7 +54,8 @@ TEST(SeparationParallel, ACrackAlongTheLoadDoesNot) {
 }
 
 TEST(SeparationParallel, SeveralCracksSeparateTogether) {
-  EXPECT_FALSE(joined(clamped(), {{{0, 3.4}, {4.2, 4}}, {{4.2, 4}, {5.1, 6.3}}, {{8, 5.2}, {4.5, 5}}}));
+  EXPECT_FALSE(
+      joined(clamped(), {{{0, 3.4}, {4.2, 4}}, {{4.2, 4}, {5.1, 6.3}}, {{8, 5.2}, {4.5, 5}}}));
 }
 
 TEST(SeparationParallel, AFragmentOfTheRimIsNoSeparation) {
