@@ -47,6 +47,17 @@ void read_step_length(const TableReader& table, const DomainSpec& domain, Growth
                                toml_value(*length))));
   }
   const double extent = domain.size.maxCoeff();
+  const Vec2 side(domain.size.x() / domain.cells[0], domain.size.y() / domain.cells[1]);
+  const double shortest = 0.01 * (growth.step_in_metres ? side.minCoeff() : 1.0);
+  if (extent > 0.0 && domain.cells[0] > 0 && domain.cells[1] > 0 && low > 0.0 && low < shortest) {
+    problems.push_back(
+        problem_at(*length, "growth.step_length",
+                   fmt::format("Found {}, a growth step of less than a hundredth of an element, "
+                               "which the grid does not resolve; allowed are steps of at least "
+                               "{}{}.",
+                               toml_value(*length), toml_number(shortest),
+                               growth.step_in_metres ? " m" : " elements")));
+  }
   if (growth.step_in_metres && extent > 0.0 && low > extent) {
     problems.push_back(problem_at(
         *length, "growth.step_length",

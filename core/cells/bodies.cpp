@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace cdca {
 
@@ -36,7 +38,8 @@ struct LocalBody {
   std::int64_t label = 0;  ///< number of the set over all ranks
   std::int64_t pieces = 0;
   std::uint64_t marks = 0;
-  double x = 0.0, y = 0.0;  ///< m
+  GlobalId node = 0;        ///< the first of the grid that has a piece in it
+  double x = 0.0, y = 0.0;  ///< a place in that piece, m
   double rigid[6] = {};     ///< upper triangle of the supports' hold on (u_x, u_y, turn)
 };
 
@@ -221,9 +224,11 @@ std::vector<LocalBody> own_bodies(const BasisContext& c, const PieceGraph& graph
   const auto add = [&](LocalId n, int p) {
     const std::int64_t name = names.of_vertex[std::size_t(graph.vertex(n, p))];
     LocalBody& body = bodies[std::size_t(name - names.first)];
-    if (body.pieces++ == 0) {
+    const GlobalId node = c.mesh.node_id(n);
+    if (body.pieces++ == 0 || node < body.node) {
       const Vec2 x = place_of(c, n, p);
       body.label = name;
+      body.node = node;
       body.x = x.x();
       body.y = x.y();
     }
@@ -264,13 +269,20 @@ Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks
   std::map<std::int64_t, LocalBody> merged;
   for (const LocalBody& body : all) {
     LocalBody& into = merged[sets.find(body.label)];
-    if (into.pieces == 0) into.x = body.x, into.y = body.y;
+    if (into.pieces == 0 || body.node < into.node)
+      into.node = body.node, into.x = body.x, into.y = body.y;
     into.pieces += body.pieces;
     into.marks |= body.marks;
     for (std::size_t k = 0; k < 6; ++k) into.rigid[k] += body.rigid[k];
   }
+  // in an order that does not depend on who owns what
+  std::vector<std::pair<std::int64_t, LocalBody>> order(merged.begin(), merged.end());
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.node, a.second.y, a.second.x) <
+           std::tie(b.second.node, b.second.y, b.second.x);
+  });
   std::map<std::int64_t, std::size_t> number;
-  for (const auto& [name, body] : merged) {
+  for (const auto& [name, body] : order) {
     number[name] = list_.size();
     list_.push_back({Vec2(body.x, body.y), body.pieces, holds_all(body.rigid), body.marks});
   }

@@ -18,8 +18,8 @@ struct Body {
   std::uint64_t marks = 0;  ///< of all its pieces
 };
 
-/// All bodies of the grid, the same list on every rank, and which of them the pieces of this rank
-/// belong to.
+/// All bodies of the grid, the same list on every rank whoever owns what, and which of them the
+/// pieces of this rank belong to.
 class Bodies {
  public:
   /// Marks of a piece, one bit for everything that touches it.

@@ -34,7 +34,18 @@ std::vector<Vec2> Crack::seen_from(int end) const {
 
 double nearest_fraction(const Vec2& a, const Vec2& b, const Vec2& x) {
   const Vec2 d = b - a;
-  return std::clamp((x - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  const double squared = d.squaredNorm();
+  return squared > 0.0 ? std::clamp((x - a).dot(d) / squared, 0.0, 1.0) : 0.0;
+}
+
+Vec2 foot_on(const Vec2& a, const Vec2& b, const Vec2& x) {
+  return a + nearest_fraction(a, b, x) * (b - a);
+}
+
+Vec2 end_or_place(const Vec2& a, const Vec2& b, const Vec2& x, double touch) {
+  const double to_a = (x - a).norm(), to_b = (x - b).norm();
+  if (std::min(to_a, to_b) > touch) return x;
+  return to_a <= to_b ? a : b;
 }
 
 }  // namespace cdca

@@ -43,5 +43,9 @@ struct Crack {
 
 /// The point of segment [a, b] nearest to x, as a fraction of the segment.
 double nearest_fraction(const Vec2& a, const Vec2& b, const Vec2& x);
+/// That point itself.
+Vec2 foot_on(const Vec2& a, const Vec2& b, const Vec2& x);
+/// x, or the end of the segment that is nearer to it than `touch`.
+Vec2 end_or_place(const Vec2& a, const Vec2& b, const Vec2& x, double touch);
 
 }  // namespace cdca

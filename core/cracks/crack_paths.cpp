@@ -54,10 +54,8 @@ struct Chain {
     if (p == a || p == b) return;
     inner.emplace_back((p - a).dot(b - a) / (b - a).squaredNorm(), p);
   }
-  bool near(const Vec2& p) const {
-    const Vec2 foot = a + nearest_fraction(a, b, p) * (b - a);
-    return (foot - p).norm() < CrackPaths::snap;
-  }
+  bool continues(const Chain& other) const { return crack == other.crack && a == other.b; }
+  bool near(const Vec2& p) const { return (foot_on(a, b, p) - p).norm() < CrackPaths::snap; }
 };
 
 void meet(Chain& s, Chain& t, PointPool& pool) {
@@ -90,7 +88,7 @@ void find_meetings(std::vector<Chain>& chains, PointPool& pool) {
     const double right = std::max(s.a.x(), s.b.x()) + margin;
     for (std::size_t l = k + 1; l < order.size() && left(order[l]) <= right; ++l) {
       Chain& t = chains[order[l]];
-      if (s.crack == t.crack) continue;
+      if (s.continues(t) || t.continues(s)) continue;
       const bool apart = std::max(s.a.y(), s.b.y()) + margin < std::min(t.a.y(), t.b.y()) ||
                          std::max(t.a.y(), t.b.y()) + margin < std::min(s.a.y(), s.b.y());
       if (!apart) meet(s, t, pool);

@@ -20,6 +20,8 @@ enum class EventKind : std::int32_t {
 };
 
 const char* name_of(EventKind kind);
+/// Of an end that has met something.
+EventKind event_of(TipState state);
 
 /// Something that happened to a crack.
 struct Event {
@@ -44,15 +46,18 @@ class CrackRegistry {
  public:
   /// Adds an initial crack with two active ends. points: m, at least two.
   void add(std::string name, std::vector<Vec2> points);
-  /// Finds where initial cracks end on the rim, on the ends or on the faces of other cracks, and
-  /// where they cross (4.1-4.2 at load step 0). Ends nearer than `tolerance` (m) are moved onto
-  /// what they touch.
-  void resolve_initial_meetings(const Rectangle& body, double tolerance);
+  /// Finds where initial cracks end on the rim, on the ends or on the faces of cracks, their own
+  /// included, and where they cross (4.1-4.2 at load step 0). Ends nearer than `touch` (m) are
+  /// moved onto what they touch.
+  void resolve_initial_meetings(const Rectangle& body, double touch);
 
   /// Lengthens a crack at one end by a straight segment to `to` (m), which appears in load step
-  /// `step`; the end takes the given state. Ends that meet something write an event.
+  /// `step`; the end takes the given state. Ends that meet something write an event. A step to
+  /// where the end is already adds no segment.
   void advance(int crack, int end, const Vec2& to, TipState state, int partner, int step,
                int cycle);
+  /// Moves an end to `at` (m), and all ends that lie in just the same place with it.
+  void place_end(int crack, int end, const Vec2& at);
   /// An end that another crack's tip has run into is a tip no more.
   void join_end(int crack, int end, int partner);
   void record(const Event& event) { events_.push_back(event); }
@@ -66,11 +71,6 @@ class CrackRegistry {
   std::uint64_t hash() const;
 
  private:
-  bool end_on_rim(std::size_t crack, int end, const Rectangle& body, double tolerance);
-  bool end_on_end(std::size_t crack, int end, double tolerance);
-  bool end_on_face(std::size_t crack, int end, double tolerance);
-  void find_crossings(double tolerance);
-
   std::vector<Crack> cracks_;
   std::vector<Event> events_;
 };

@@ -24,13 +24,24 @@ struct Increment {
 };
 
 /// Lets every increment end where it meets the rim, a crack or another increment:
-///  - a rim point nearer than the increment is long, and within 60 degrees of its direction, ends
-///    the crack there (4.1);
-///  - so does the face of another crack (4.2.2), or the crack's own face where the increment
-///    crosses it;
-///  - two increments that cross both end at the crossing (4.2.1).
-/// Earlier meetings along the increments come first, ties by crack and end.
+///  - boundary (4.1): a rim point nearer than the increment is long, ahead of the tip, or where the
+///    increment leaves the body;
+///  - coalescence (4.2.2): the face of a crack, its own included, that it crosses or that lies
+///    ahead and nearer than it is long; the tip of a crack that does not grow now is a connection;
+///  - connection (4.2.1): two increments that cross both end at the crossing; two tips that head
+///    for each other, and whose increments reach each other, meet between their places.
+/// Ahead means within 60 degrees of the direction. Nearness does not count for what the tip's last
+/// segment comes from. What comes nearer than `touch` (m) counts as met.
+///
+/// The earliest meeting along the increments comes first, ties by crack and end. An increment that
+/// has ended causes no meetings further on, and those that come across it later end on it. The
+/// order of the result is by crack and end.
 std::vector<Increment> resolve_meetings(const CrackRegistry& registry, const Rectangle& body,
-                                        std::vector<Increment> increments);
+                                        double touch, std::vector<Increment> increments);
+
+/// Applies resolved increments of one growth cycle. One that ends within `touch` (m) of the tip
+/// moves it there and adds no segment.
+void apply_increments(const std::vector<Increment>& increments, double touch, int step, int cycle,
+                      CrackRegistry& registry);
 
 }  // namespace cdca

@@ -25,4 +25,10 @@ inline std::optional<SegmentCrossing> crossing_of(const Vec2& a, const Vec2& b, 
   return SegmentCrossing{s, t};
 }
 
+/// Are the boxes round [a, b] and [c, d] farther apart than `margin`?
+inline bool boxes_apart(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double margin) {
+  return (a.cwiseMax(b).array() + margin < c.cwiseMin(d).array()).any() ||
+         (c.cwiseMax(d).array() + margin < a.cwiseMin(b).array()).any();
+}
+
 }  // namespace cdca

@@ -130,17 +130,8 @@ std::vector<Increment> increments_of(const Model& model, const std::vector<Growt
     increments.push_back({plan.crack, plan.end, from,
                           from + plan.length * turned(crack.end_tangent(plan.end), plan.angle)});
   }
-  return resolve_meetings(model.registry(), model.body(), std::move(increments));
-}
-
-void apply_increments(const std::vector<Increment>& increments, int step, int cycle,
-                      CrackRegistry& registry) {
-  for (const Increment& i : increments) {
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, step, cycle);
-  }
-  for (const Increment& i : increments) {
-    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack);
-  }
+  return resolve_meetings(model.registry(), model.body(), model.touch_distance(),
+                          std::move(increments));
 }
 
 void correct_directions(Model& model, const EquilibriumSolver& solver, double load_factor,
@@ -152,7 +143,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
   const bool joined = model.joins_loaded_boundaries();
   for (int trial = 0; trial < most_trials; ++trial) {
     CrackRegistry ahead = registry;
-    apply_increments(increments_of(model, plans), 1, 0, ahead);
+    apply_increments(increments_of(model, plans), model.touch_distance(), 1, 0, ahead);
     model.lay_cracks(ahead);
     if (joined && !model.joins_loaded_boundaries()) {
       // the step cuts the body apart: there is no field to correct it by

@@ -60,8 +60,4 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
 /// The increments of the plans, ended where they meet something.
 std::vector<Increment> increments_of(const Model& model, const std::vector<GrowthPlan>& plans);
 
-/// Applies increments to a registry.
-void apply_increments(const std::vector<Increment>& increments, int step, int cycle,
-                      CrackRegistry& registry);
-
 }  // namespace cdca

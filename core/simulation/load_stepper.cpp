@@ -42,18 +42,28 @@ double greatest_index(const std::vector<TipAssessment>& tips) {
   return u;
 }
 
-/// Lengthens the cracks, and writes down the bodies that this has cut off.
 void advance(Model& model, const std::vector<Increment>& increments, int step, int cycle) {
   CrackRegistry registry = model.registry();
-  apply_increments(increments, step, cycle, registry);
-  const std::size_t bodies = model.bodies().list().size();
-  model.lay_cracks(registry);
-  bool cut_off = model.bodies().list().size() > bodies;
-  for (const Body& body : model.bodies().list()) {
-    if (body.held || !cut_off) continue;
-    registry.record({step, cycle, EventKind::fragment, -1, -1, -1, body.at});
+  apply_increments(increments, model.touch_distance(), step, cycle, registry);
+  model.lay_cracks(std::move(registry));
+}
+
+/// Writes down the bodies that have come loose: those in which no fragment has been noted yet.
+void note_fragments(Model& model, int step, int cycle) {
+  const auto loose = model.loose_bodies();
+  if (loose.empty()) return;
+  CrackRegistry registry = model.registry();
+  std::vector<Vec2> noted;
+  for (const Event& e : registry.events()) {
+    if (e.kind == EventKind::fragment) noted.push_back(e.at);
   }
-  if (cut_off) model.replace_events(registry);
+  const auto known = model.bodies_at(noted);
+  for (const std::size_t body : loose) {
+    if (std::find(known.begin(), known.end(), body) != known.end()) continue;
+    const Vec2 at = model.bodies().list()[body].at;
+    registry.record({step, cycle, EventKind::fragment, -1, -1, -1, at});
+  }
+  model.replace_events(std::move(registry));
 }
 
 void note(Model& model, EventKind kind, int step, int cycle) {
@@ -98,6 +108,7 @@ void run_prescribed(Model& model, Recorder& recorder) {
     StepResult result{int(k) + 1, spec.load_factors[k], 0, k + 1 == spec.load_factors.size()};
     compare_registries(model);
     Equilibrium equilibrium = solve(model, *solver, result.load_factor, recorder);
+    note_fragments(model, result.step, 0);
     energy.new_loads(model, equilibrium);
     auto tips = criterion.assess(model, result.load_factor);
     bool separated = false;
@@ -113,12 +124,14 @@ void run_prescribed(Model& model, Recorder& recorder) {
       advance(model, increments, result.step, ++cycle);
       separated = joined && !model.joins_loaded_boundaries();
       if (separated) {
+        note_fragments(model, result.step, cycle);
         equilibrium = unloaded(model);
         energy.broken();
         tips.clear();
         break;
       }
       equilibrium = solve(model, *solver, result.load_factor, recorder);
+      note_fragments(model, result.step, cycle);
       energy.new_cracks(model, equilibrium);
       tips = criterion.assess(model, result.load_factor);
     }
@@ -145,12 +158,14 @@ void run_critical(Model& model, Recorder& recorder) {
     if (joined && !model.joins_loaded_boundaries()) {
       const Equilibrium nothing = unloaded(model);
       energy.broken();
+      note_fragments(model, event, 0);
       note(model, EventKind::separated, event, 0);
       recorder.set_status("separated", cut_apart);
       recorder.step(model, {event, 0.0, 0, true}, nothing, energy, {});
       return;
     }
     Equilibrium equilibrium = solve(model, *solver, 1.0, recorder);
+    note_fragments(model, event, 0);
     auto tips = criterion.assess(model, 1.0);
     const double u = greatest_index(tips);
     if (u <= 0.0) recorder.set_status("completed", "no tip is opened by the loads: nothing grows.");

@@ -2,6 +2,7 @@
 #include "core/simulation/model.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/cracks/junction_search.hpp"
 #include "core/cracks/level_set.hpp"
 #include "core/cracks/segments.hpp"
 #include "core/mechanics/loaded_pieces.hpp"
@@ -48,7 +49,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
 void Model::place_cracks() {
   for (const CrackSpec& crack : spec_.cracks) registry_.add(crack.name, crack.points);
   registry_.resolve_initial_meetings(body(), touch_distance());
-  cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
+  cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_));
   refuse_hidden_cracks();
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
@@ -76,14 +77,15 @@ void Model::find_bodies() {
       basis(), supports_.flags(unknowns_.count()),
       [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
   if (contact_.empty()) return;
-  spots_.find_bodies(
-      [&](GridIndex e, int part) {
-        const auto nodes = mesh_.element_nodes(e);
-        std::size_t a = 0;
-        while (nodes[a] < 0) ++a;
-        return int(bodies_->body_of(nodes[a], unknowns_.piece(nodes[a], (a + 2) % 4, part)));
-      },
-      contact_, communicator_);
+  spots_.find_bodies([&](GridIndex e, int part) { return int(body_of(e, part)); }, contact_,
+                     communicator_);
+}
+
+std::size_t Model::body_of(GridIndex e, int part) const {
+  const auto nodes = mesh_.element_nodes(e);
+  std::size_t a = 0;
+  while (nodes[a] < 0) ++a;
+  return bodies_->body_of(nodes[a], unknowns_.piece(nodes[a], (a + 2) % 4, part));
 }
 
 std::vector<char> Model::held_bodies(bool touching_only) const {
@@ -143,12 +145,33 @@ void Model::lay_cracks(CrackRegistry registry) {
   const std::vector<TipZone> old_zones = std::move(zones_);
   const std::vector<double> old_state = std::move(state_);
   registry_ = std::move(registry);
+  cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), &contact_);
-  cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()), old_cuts);
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
   build_cells();
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
   build_stiffness();
+}
+
+std::vector<std::size_t> Model::loose_bodies() const {
+  const auto held = held_bodies(true);
+  std::vector<std::size_t> loose;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    if (!held[k]) loose.push_back(k);
+  }
+  return loose;
+}
+
+std::vector<std::size_t> Model::bodies_at(const std::vector<Vec2>& places) const {
+  std::vector<std::int64_t> found;
+  for (const Vec2& x : places) {
+    const Vec2 at = grid_.to_grid(x);
+    const GridIndex e = grid_.element_at(at);
+    const bool here = mesh_.evaluates(e) && mesh_.find_element(e) >= 0;
+    found.push_back(here ? std::int64_t(body_of(e, cuts_.part_at(e, at))) : 0);
+  }
+  communicator_.sum(std::span<std::int64_t>(found));
+  return {found.begin(), found.end()};
 }
 
 std::vector<double> Model::springs() const {

@@ -40,6 +40,10 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
+  /// Numbers of the bodies that neither supports nor touching faces hold.
+  std::vector<std::size_t> loose_bodies() const;
+  /// Numbers of the bodies in which places (m) lie. Collective.
+  std::vector<std::size_t> bodies_at(const std::vector<Vec2>& places) const;
   /// A body, and not only pieces cut off it, still joins two loaded boundaries, and no part on
   /// which forces act has come off.
   bool joins_loaded_boundaries() const;
@@ -87,6 +91,7 @@ class Model {
   void place_cracks();
   void build_cells();
   void find_bodies();
+  std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;
   /// Whether each body is held: by supports, or by faces (touching ones, or all) of bodies that
   /// are.

@@ -137,6 +137,83 @@ TEST(CrackRegistryTest, CrossingAtAKinkIsOneEvent) {
   EXPECT_TRUE(crossings[0].at.isApprox(Vec2(5, 4), 1e-14));
 }
 
+TEST(CrackRegistryTest, ThreeCracksThroughOnePointCrossInPairs) {
+  const CrackRegistry registry = resolved({{{3, 4}, {7, 4}}, {{5, 2}, {5, 6}}, {{4, 3}, {6, 5}}});
+  EXPECT_EQ(registry.active_tips(), 6);
+  const auto crossings = events_of(registry, EventKind::crossing);
+  ASSERT_EQ(crossings.size(), 3u);
+  for (const Event& e : crossings) EXPECT_TRUE(e.at.isApprox(Vec2(5, 4), 1e-14));
+}
+
+TEST(CrackRegistryTest, EndsOnAJunctionShareIt) {
+  const double off = 0.6 * tolerance;
+  const CrackRegistry registry =
+      resolved({{{2, 4}, {8, 4}}, {{5, 7}, {5, 4 + off}}, {{3, 7}, {5 - off, 4}}});
+  EXPECT_EQ(registry.cracks()[1].points.back(), Vec2(5, 4));
+  EXPECT_EQ(registry.cracks()[2].points.back(), Vec2(5, 4));
+  for (const std::size_t c : {1U, 2U}) {
+    EXPECT_EQ(end_of(registry, c, 1).state, TipState::coalesced);
+    EXPECT_EQ(end_of(registry, c, 1).partner, 0);
+  }
+  EXPECT_EQ(events_of(registry, EventKind::coalescence).size(), 2u);
+  EXPECT_EQ(registry.events().size(), 2u);
+}
+
+TEST(CrackRegistryTest, EndNearAKinkOfItsPartnerEndsInTheKink) {
+  const Vec2 kink(5, 4 + 0.8 * tolerance);
+  const CrackRegistry registry = resolved({{{2, 4}, kink, {8, 4}}, {{4, 7}, {5, 4}}});
+  EXPECT_EQ(registry.cracks()[1].points.back(), kink);
+}
+
+TEST(CrackRegistryTest, ALassoEndsOnItsOwnFace) {
+  const CrackRegistry registry = resolved({{{2, 2}, {8, 2}, {8, 6}, {5, 6}, {5, 2.0004}}});
+  EXPECT_EQ(end_of(registry, 0, 1).state, TipState::coalesced);
+  EXPECT_EQ(end_of(registry, 0, 1).partner, 0);
+  EXPECT_EQ(registry.cracks()[0].points.back(), Vec2(5, 2));
+  EXPECT_EQ(registry.active_tips(), 1);
+  ASSERT_EQ(registry.events().size(), 1u);
+  EXPECT_EQ(registry.events()[0].partner, 0);
+}
+
+TEST(CrackRegistryTest, ALoopIsConnectedWithItself) {
+  const CrackRegistry registry = resolved({{{2, 2}, {8, 2}, {5, 6}, {2.0005, 2}}});
+  EXPECT_EQ(registry.active_tips(), 0);
+  for (const std::size_t end : {0U, 1U}) {
+    EXPECT_EQ(end_of(registry, 0, end).state, TipState::connected);
+    EXPECT_EQ(end_of(registry, 0, end).partner, 0);
+  }
+  EXPECT_EQ(registry.cracks()[0].points.front(), registry.cracks()[0].points.back());
+  EXPECT_EQ(events_of(registry, EventKind::connection).size(), 2u);
+  EXPECT_EQ(registry.events().size(), 2u);
+}
+
+TEST(CrackRegistryTest, ACrackThatCrossesItselfIsACrossing) {
+  const CrackRegistry registry = resolved({{{2, 2}, {8, 2}, {8, 6}, {5, 6}, {5, 1}}});
+  EXPECT_EQ(registry.active_tips(), 2);
+  ASSERT_EQ(registry.events().size(), 1u);
+  EXPECT_EQ(registry.events()[0].kind, EventKind::crossing);
+  EXPECT_TRUE(registry.events()[0].at.isApprox(Vec2(5, 2), 1e-14));
+}
+
+TEST(CrackRegistryTest, CracksThatRunIntoEachOtherSideBySideMeetOnce) {
+  // the second ends on the first, whose tip then lies within touch of the second
+  const Vec2 tip(5, 4);
+  const CrackRegistry registry =
+      resolved({{{2, 4}, tip}, {{8, 4.0005}, {5.1, 4.0003}, tip + Vec2(-0.004, 0)}});
+  EXPECT_EQ(registry.active_tips(), 2) << "the two far ends";
+  EXPECT_EQ(registry.cracks()[0].points.back(), registry.cracks()[1].points.back());
+}
+
+TEST(CrackRegistryTest, AnEndMovedAwayIsFollowedByThoseThatHadJoinedIt) {
+  // the first joins the second's end, which then moves onto the third's face
+  const double off = 0.8 * tolerance;
+  const CrackRegistry registry =
+      resolved({{{2, 6}, {5, 4 + 2 * off}}, {{8, 6}, {5, 4 + off}}, {{2, 4}, {8, 4}}});
+  EXPECT_EQ(registry.cracks()[0].points.back(), registry.cracks()[1].points.back());
+  EXPECT_NEAR(registry.cracks()[0].points.back().y(), 4, 1e-15);
+  EXPECT_EQ(registry.active_tips(), 4);
+}
+
 TEST(CrackRegistryTest, TheRimComesBeforeOtherCracks) {
   const CrackRegistry registry = resolved({{{0, 4}, {3, 4}}, {{0, 4}, {3, 6}}});
   EXPECT_EQ(end_of(registry, 0, 0).state, TipState::boundary);
@@ -176,6 +253,15 @@ TEST(CrackRegistryTest, GrowthThatMeetsSomethingEndsTheTipWithAnEvent) {
   EXPECT_EQ(event.cycle, 2);
   EXPECT_EQ(event.at, Vec2(6, 3));
   EXPECT_EQ(registry.events()[1].kind, EventKind::boundary);
+}
+
+TEST(CrackRegistryTest, AStepToWhereTheEndIsAddsNoSegment) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
+  registry.advance(0, 1, Vec2(4, 3), TipState::coalesced, 1, 4, 2);
+  EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}}));
+  EXPECT_EQ(registry.cracks()[0].age.size(), 1u);
+  EXPECT_EQ(end_of(registry, 0, 1).state, TipState::coalesced);
+  EXPECT_EQ(registry.events().size(), 1u);
 }
 
 TEST(CrackRegistryTest, EndThatWasMetIsATipNoMore) {

@@ -122,6 +122,7 @@ TEST(CaseGrowth, TellsMistakes) {
   wrong("step_length = \"auto\"", "step_length", "Found the text \"auto\"");
   wrong("step_length = [1, 2, 3]", "step_length", "Found a list of 3 values");
   wrong("step_length = [0, 2]", "step_length[0]", "greater than 0");
+  wrong("step_length = 0.009", "step_length", "steps of at least 0.01 elements");
   wrong("step_length = [3, 2]", "step_length", "Found [3, 2]; allowed are limits [low, high]");
   wrong("step_unit = \"mm\"", "step_unit", "\"element\" and \"m\"");
   wrong("direction = \"free\"", "direction", "\"corrected\" and \"explicit\"");
@@ -133,6 +134,8 @@ TEST(CaseGrowth, TellsMistakes) {
                  "step_length is [1.0, 4.0]; allowed is one number");
   expect_problem(growing("step_unit = \"m\"\nstep_length = [5, 6]"), "step_length",
                  "growth.step_length", "longer than the body");
+  expect_problem(growing("step_unit = \"m\"\nstep_length = [0.0009, 6]"), "step_length",
+                 "growth.step_length", "steps of at least 0.001 m");
 }
 
 TEST(CaseGrowth, NeedsAMaterialForItsCriterion) {

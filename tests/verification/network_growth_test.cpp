@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Random networks of cracks grow to the end: whatever meets whatever, a run ends as completed or
+/// separated, with finite numbers, and growth never gives energy back.
+#include "core/base/errors.hpp"
+#include "core/cracks/random_cracks.hpp"
+#include "core/simulation/simulation.hpp"
+#include "tests/plates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace cdca::testing {
+namespace {
+
+/// Is the body with these cracks held everywhere?
+bool is_sound(const CaseSpec& spec) {
+  try {
+    const Model model(spec, world(), world_partitioner());
+    return true;
+  } catch (const InputError&) {
+    return false;  // a part is cut off from the start, or a crack is too short for the grid
+  }
+}
+
+/// A plate in tension with up to `count` cracks of 2 to 10 elements; those that would cut off a
+/// part are left out.
+CaseSpec random_network(unsigned seed, int cells, int count) {
+  CaseSpec spec = plate({0, 0}, {1, 1}, cells, cells);
+  spec.solver.tolerance = 1e-11;
+  BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
+  top.displacement[1] = proportional_load(1e-3);
+  bottom.displacement[1] = proportional_load(0);
+  pin.displacement[0] = proportional_load(0);
+  spec.boundaries = {top, bottom, pin};
+  const double h = 1.0 / cells;
+  CrackFieldSpec field{count, {2 * h, 10 * h}, {0, 180}, {Vec2(0, 0), Vec2(1, 1)}, seed};
+  for (const auto& ends : random_cracks(field)) {
+    add_crack(spec, {ends[0], ends[1]});
+    if (!is_sound(spec)) spec.cracks.pop_back();
+  }
+  spec.material.toughness = 0.1;
+  spec.growth.criterion = Criterion::hoop;
+  return spec;
+}
+
+/// Seeds differ in grid, number of cracks, step length, kind of loading and number of scales.
+CaseSpec network_of_seed(unsigned seed) {
+  std::mt19937 engine(seed);
+  const int cells = 30 + int(engine() % 21), count = 5 + int(engine() % 56);
+  CaseSpec spec = random_network(seed, cells, count);
+  spec.loading.critical = seed % 2 == 0;
+  spec.loading.max_events = 400;
+  spec.loading.min_factor = 1e-6;
+  spec.growth.fixed_step = seed % 3 == 0;
+  spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
+  if (seed % 5 != 0) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
+  spec.load_factors.clear();
+  for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
+  return spec;
+}
+
+void expect_finite(const Summary& s) {
+  for (const StepRecord& step : s.steps) {
+    EXPECT_TRUE(std::isfinite(step.strain_energy) && std::isfinite(step.external_work));
+  }
+  for (const CrackRecord& crack : s.cracks) {
+    for (const Vec2& x : crack.points) EXPECT_TRUE(x.allFinite());
+  }
+  for (const TipRecord& tip : s.tips) EXPECT_TRUE(std::isfinite(tip.k1) && std::isfinite(tip.k2));
+}
+
+void expect_to_end_well(const CaseSpec& spec) {
+  Summary s;
+  ASSERT_NO_THROW(s = run_simulation(spec, "test", world(), world_partitioner(), {}));
+  std::cout << spec.cracks.size() << " cracks, " << spec.domain.cells[0] << " x "
+            << spec.domain.cells[1] << ": " << s.status << " after " << s.steps.size() << " steps, "
+            << s.events.size() << " events, iterations " << s.performance.solver_iterations << ", "
+            << s.performance.wall_s << " s, " << s.message << "\n";
+  EXPECT_TRUE(s.status == "completed" || s.status == "separated") << s.status;
+  expect_finite(s);
+  double before = 0.0, most = 0.0;
+  for (const StepRecord& step : s.steps) {
+    most = std::max(most, step.external_work);
+    EXPECT_GE(step.dissipated, before - 1e-9 * most)
+        << "step " << step.step << ", lost " << (before - step.dissipated) / most;
+    before = step.dissipated;
+  }
+}
+
+class NetworkGrowth : public ::testing::TestWithParam<unsigned> {};
+TEST_P(NetworkGrowth, EndsWell) { expect_to_end_well(network_of_seed(GetParam())); }
+INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth, ::testing::Values(1U, 2U));
+
+class SlowNetworkGrowth : public ::testing::TestWithParam<unsigned> {};
+TEST_P(SlowNetworkGrowth, EndsWell) { expect_to_end_well(network_of_seed(GetParam())); }
+INSTANTIATE_TEST_SUITE_P(Seeds, SlowNetworkGrowth, ::testing::Range(3U, 43U));
+
+}  // namespace
+}  // namespace cdca::testing
