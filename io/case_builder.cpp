@@ -2,6 +2,7 @@
 #include "io/case_builder.hpp"
 
 #include "io/case_boundaries.hpp"
+#include "io/case_contact.hpp"
 #include "io/case_cracks.hpp"
 #include "io/case_growth.hpp"
 #include "io/case_loads.hpp"
@@ -114,6 +115,7 @@ CaseSpec build_case(const ConfigNode& root, std::vector<Problem>& problems) {
   spec.growth = build_growth(root, spec, problems);
   spec.solver = build_solver(root, problems);
   spec.output = build_output(root);
+  check_contact(root, problems);
   spec.cracks = build_cracks(root, spec.domain, problems);
   add_random_cracks(root, spec, problems);
   if (const auto* force = TableReader(root, "domain").find("body_force")) {
