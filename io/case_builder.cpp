@@ -98,6 +98,7 @@ OutputSpec build_output(const ConfigNode& root) {
   const TableReader table(root, "output");
   OutputSpec output;
   table.read("every", output.every);
+  table.read("checkpoint_every", output.checkpoint_every);
   table.read("pictures", output.pictures);
   return output;
 }

@@ -379,9 +379,9 @@ constexpr Option option_table[] = {
      .key = "checkpoint_every",
      .kind = integer,
      .range = {.low = 0.0, .high = 1e6},
-     .only = "0",
-     .standard = "0",
-     .text = "Load steps between checkpoints; 0: never."},
+     .standard = "10",
+     .text = "Load steps between checkpoints, from which `--restart` goes on; 0: none but the one "
+             "of a run that is asked to stop."},
     {.section = "output",
      .key = "pictures",
      .kind = boolean,

@@ -142,14 +142,7 @@ void check_value(const Option& option, const ConfigNode& value, const std::strin
     problems.push_back(problem_at(value, path, later_sentence("key")));
     return;
   }
-  const auto before = problems.size();
   check_shape(option, value, path, problems);
-  if (problems.size() > before || option.only.empty()) return;
-  if (toml_value(value) == option.only) return;
-  problems.push_back(problem_at(
-      value, path,
-      fmt::format("The value {} is known, but this version does not support it yet; allowed is {}.",
-                  toml_value(value), option.only)));
 }
 
 }  // namespace cdca

@@ -137,6 +137,17 @@ void Model::lay_cracks(CrackRegistry registry) {
   build_stiffness();
 }
 
+void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches) {
+  registry_ = std::move(registry);
+  contact_ = ContactPatches(grid_, material_.elastic_matrix(), contact_laws(), registry_.cracks(),
+                            nullptr);
+  contact_.put_back(patches);
+  cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
+  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  build_cells();
+  build_stiffness();
+}
+
 std::vector<double> Model::springs() const {
   constexpr double weak = 1e-6;  // of the unknown's own stiffness
   const auto held = held_bodies(true);

@@ -35,6 +35,10 @@ class Model {
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
   void lay_cracks(CrackRegistry registry);
 
+  /// As lay_cracks() with cracks and contact of a run that goes on; the displacements are left at
+  /// 0. Throws IoError when the patches are not those of the cracks. Collective.
+  void put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches);
+
   /// Takes over a registry that differs from the model's by its events only.
   void replace_events(CrackRegistry registry) { registry_ = std::move(registry); }
 
