@@ -36,6 +36,21 @@ std::vector<std::string> with_repeated_set(const std::vector<std::string>& argum
   return out;
 }
 
+/// "--restart FILE.h5" means the same as "--restart=FILE.h5"; what does not look like a checkpoint
+/// is an argument of its own.
+std::vector<std::string> with_joined_restart(const std::vector<std::string>& arguments) {
+  std::vector<std::string> out;
+  for (const auto& argument : arguments) {
+    const bool is_file = argument.ends_with(".h5") || argument.ends_with(".hdf5");
+    if (is_file && !out.empty() && out.back() == "--restart") {
+      out.back() += "=" + argument;
+    } else {
+      out.push_back(argument);
+    }
+  }
+  return out;
+}
+
 void add_case(CLI::App& app, CommandLine& line) {
   app.add_option("CASE", line.case_file, "Case file (TOML)")->required();
   app.add_option("--set", line.settings,
@@ -94,10 +109,15 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
   run.add_option("-o,--output", line.directory, "Result folder; default results/<name of the case>")
       ->type_name("DIR");
   run.add_flag("--quiet", line.quiet, "Print errors only");
+  const std::string newest = "newest";
+  std::string checkpoint;
+  run.add_flag("--restart{newest}", checkpoint,
+               "Go on from the newest checkpoint of the result folder, or from a given one: "
+               "--restart FILE.h5");
   add_case(check, line);
 
   try {
-    auto reversed = with_repeated_set(arguments);
+    auto reversed = with_repeated_set(with_joined_restart(arguments));
     std::reverse(reversed.begin(), reversed.end());
     if (!reversed.empty()) reversed.pop_back();  // the program's name
     app.parse(reversed);
@@ -112,6 +132,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     return line;
   }
   if (run.parsed()) line.command = CommandLine::Command::run;
+  line.restarts = !checkpoint.empty();
+  if (checkpoint != newest) line.checkpoint = checkpoint;
   if (check.parsed()) line.command = CommandLine::Command::check;
   if (options.parsed()) line.command = CommandLine::Command::options;
   if (line.directory.empty()) line.directory = default_directory(line.case_file);

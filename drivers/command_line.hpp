@@ -20,6 +20,8 @@ struct CommandLine {
   std::string directory;              ///< of the results
   std::vector<std::string> settings;  ///< "key.path=value", in order
   bool quiet = false;
+  bool restarts = false;   ///< goes on from a checkpoint
+  std::string checkpoint;  ///< from this one; empty: the newest one of the result folder
   std::string text;
 };
 

@@ -2,6 +2,7 @@
 #include "io/case_builder.hpp"
 
 #include "io/case_boundaries.hpp"
+#include "io/case_contact.hpp"
 #include "io/case_cracks.hpp"
 #include "io/case_growth.hpp"
 #include "io/case_loads.hpp"
@@ -97,6 +98,7 @@ OutputSpec build_output(const ConfigNode& root) {
   const TableReader table(root, "output");
   OutputSpec output;
   table.read("every", output.every);
+  table.read("checkpoint_every", output.checkpoint_every);
   table.read("pictures", output.pictures);
   return output;
 }
@@ -114,6 +116,7 @@ CaseSpec build_case(const ConfigNode& root, std::vector<Problem>& problems) {
   spec.growth = build_growth(root, spec, problems);
   spec.solver = build_solver(root, problems);
   spec.output = build_output(root);
+  check_contact(root, problems);
   spec.cracks = build_cracks(root, spec.domain, problems);
   add_random_cracks(root, spec, problems);
   if (const auto* force = TableReader(root, "domain").find("body_force")) {

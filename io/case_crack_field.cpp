@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cracks/random_cracks.hpp"
+#include "io/case_contact.hpp"
 #include "io/case_cracks.hpp"
 #include "io/case_table.hpp"
 
@@ -87,7 +88,7 @@ void add_random_cracks(const ConfigNode& root, CaseSpec& spec, std::vector<Probl
     for (std::size_t k = 0; k < blocks; ++k) {
       if (spec.cracks[k].name == name) check_name(root, k, name, problems);
     }
-    spec.cracks.push_back({name, {cracks[i][0], cracks[i][1]}, table.line()});
+    spec.cracks.push_back({name, {cracks[i][0], cracks[i][1]}, table.line(), common_contact(root)});
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/case_cracks.hpp"
 
+#include "io/case_contact.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -98,6 +100,7 @@ std::vector<CrackSpec> build_cracks(const ConfigNode& root, const DomainSpec& do
     crack.name = name_of(block, i, problems);
     crack.points = points_of(block, i, wrong, problems);
     crack.line = block.line;
+    crack.contact = contact_of(root, block);
     cracks.push_back(std::move(crack));
   }
   check_names(cracks, list->items, problems);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/case_describe.hpp"
 
+#include "io/case_contact.hpp"
+
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace cdca {
 namespace {
@@ -48,6 +52,27 @@ std::string cracks_text(const CaseSpec& spec, int tips) {
   }
   if (spec.cracks.size() > most_listed)
     out += line("", fmt::format("and {} more", spec.cracks.size() - most_listed));
+  return out;
+}
+
+/// A line per law, with its cracks where there are several laws.
+std::string contact_text(const CaseSpec& spec) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> laws;
+  for (const auto& crack : spec.cracks) {
+    const auto text = describe_contact(crack.contact);
+    const auto place =
+        std::find_if(laws.begin(), laws.end(), [&](const auto& law) { return law.first == text; });
+    auto& law = place == laws.end() ? laws.emplace_back(text, std::vector<std::string>()) : *place;
+    law.second.push_back(crack.name);
+  }
+  std::string out;
+  for (auto& [text, names] : laws) {
+    const auto count = names.size();
+    if (count > most_listed) names.resize(most_listed);
+    const auto more = count > most_listed ? fmt::format(" and {} more", count - most_listed) : "";
+    const auto whose = laws.size() > 1 ? fmt::format(": {}{}", fmt::join(names, ", "), more) : "";
+    out += line(out.empty() ? "contact" : "", text + whose);
+  }
   return out;
 }
 
@@ -118,7 +143,7 @@ std::string bytes_text(std::int64_t bytes) {
 std::string describe_case(const CaseSpec& spec, const CaseSize& size) {
   constexpr std::string_view methods[] = {"relaxation", "krylov", "multilevel"};
   return line("title", spec.title) + domain_text(spec.domain) + material_text(spec.material) +
-         cracks_text(spec, size.tips) +
+         cracks_text(spec, size.tips) + contact_text(spec) +
          line("tip radius", spec.tip_radius > 0.0 ? fmt::format("{:.6g} m", spec.tip_radius)
                                                   : "the nodes of the tip element") +
          loads_text(spec) + growth_text(spec.growth) +

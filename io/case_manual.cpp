@@ -35,9 +35,6 @@ std::string meaning(const Option& option) {
     out += i == 0 ? " Not with " : i + 1 == others.size() ? " or " : ", ";
     out += fmt::format("`{}`{}", others[i], i + 1 == others.size() ? "." : "");
   }
-  if (!option.later.empty())
-    out += fmt::format(" In later versions: {}.", quoted_words(words_of(option.later), "and"));
-  if (!option.only.empty()) out += fmt::format(" This version supports {} only.", option.only);
   return out;
 }
 

@@ -12,40 +12,20 @@ constexpr OptionRange positive{.low = 0.0, .low_allowed = false};
 constexpr OptionRange not_negative{.low = 0.0};
 constexpr OptionRange from_one{.low = 1.0, .high = 1e6};
 
+/// The faces of cracks: in [contact], and in [[crack]] for that crack.
+constexpr Option faces(std::string_view section, std::string_view key, std::string_view unit,
+                       OptionRange range, std::string_view meaning) {
+  return {.section = section, .key = key, .unit = unit, .range = range, .text = meaning};
+}
+
+constexpr std::string_view laws = "none|frictionless|coulomb|cohesive";
+constexpr std::string_view as_in_contact = "As in [contact], for this crack only.";
+
 /// A key of later versions.
 constexpr Option later(std::string_view section, std::string_view key, std::string_view unit,
                        std::string_view meaning) {
   return {.section = section, .key = key, .unit = unit, .whole_key_later = true, .text = meaning};
 }
-
-constexpr OptionSection section_table[] = {
-    {.name = "", .text = "Keys at the top of the file, before the first table."},
-    {.name = "domain", .text = "The body: a rectangle with a regular grid."},
-    {.name = "material", .text = "Linear elastic and isotropic."},
-    {.name = "contact", .text = "How crack faces that touch push on each other."},
-    {.name = "enrichment", .text = "Near-tip functions."},
-    {.name = "crack",
-     .repeated = true,
-     .text = "One block per initial crack, a polyline: either `points`, or `center`, `length` and "
-             "`angle`. Cracks may cross, touch each other and end on the sides of the body."},
-    {.name = "crack_field",
-     .optional = true,
-     .text = "Random straight cracks besides the [[crack]] blocks, called random1, random2, ...; "
-             "the same for the same seed. Without this table there are none."},
-    {.name = "boundary",
-     .repeated = true,
-     .text = "Supports and loads, one block per place: a side or the faces of a crack (`on`), or a "
-             "point (`at`). Together the supports must hold the body against translation and "
-             "rotation."},
-    {.name = "loading", .text = "How the load factor s goes up."},
-    {.name = "growth", .text = "When and where cracks grow."},
-    {.name = "solver", .text = "How equilibrium is found."},
-    {.name = "output", .text = "What is written into the result folder."},
-    {.name = "region",
-     .repeated = true,
-     .later = true,
-     .text = "Parts of the body with their own material, and holes."},
-};
 
 constexpr Option option_table[] = {
     {.section = "",
@@ -130,16 +110,36 @@ constexpr Option option_table[] = {
     {.section = "contact",
      .key = "law",
      .kind = choice,
-     .choices = "none",
-     .later = "frictionless|coulomb|cohesive",
+     .choices = laws,
      .standard = "\"none\"",
-     .text = "\"none\": crack faces do not feel each other, and may overlap in compression."},
-    later("contact", "normal_stiffness", "Pa/m", "Normal stiffness of touching faces."),
-    later("contact", "tangential_stiffness", "Pa/m", "Tangential stiffness of touching faces."),
-    later("contact", "friction", "", "Coefficient of friction."),
-    later("contact", "cohesion", "Pa", "Cohesion of touching faces."),
-    later("contact", "cohesive_stiffness", "Pa/m", "Stiffness of the cohesive law."),
-    later("contact", "critical_gap", "m", "Gap at which the cohesive law lets go."),
+     .text = "\"none\": crack faces do not feel each other, and may overlap in compression. "
+             "\"frictionless\": they push; needs `normal_stiffness`. \"coulomb\": they push and "
+             "rub; needs `normal_stiffness`, `tangential_stiffness` and `friction`. "
+             "\"cohesive\": they hold together until they are torn apart; needs "
+             "`normal_stiffness`, `cohesive_stiffness` and `critical_gap`. A law ignores "
+             "the keys of other laws."},
+    faces("contact", "normal_stiffness", "Pa/m", positive,
+          "Stiffness of touching faces, per area of the faces: they overlap by their pressure "
+          "divided by it."),
+    faces("contact", "tangential_stiffness", "Pa/m", positive,
+          "Stiffness of sticking faces against sliding, per area of the faces. With the law "
+          "\"cohesive\": of faces that were pressed together; without it they slide freely."),
+    faces("contact", "friction", "", not_negative,
+          "Coefficient of friction, for the law \"coulomb\", and for \"cohesive\" with "
+          "`tangential_stiffness`."),
+    {.section = "contact",
+     .key = "cohesion",
+     .unit = "Pa",
+     .range = not_negative,
+     .standard = "0.0",
+     .text = "Shear stress that touching faces bear besides friction, with the laws that know "
+             "friction."},
+    faces("contact", "cohesive_stiffness", "Pa/m", positive,
+          "For the law \"cohesive\": slope, per area of the faces, by which the tension between "
+          "them falls as they open. Their strength is about `cohesive_stiffness` times "
+          "`critical_gap`."),
+    faces("contact", "critical_gap", "m", positive,
+          "For the law \"cohesive\": opening at which the faces let go."),
 
     {.section = "enrichment",
      .key = "tip_radius",
@@ -173,13 +173,13 @@ constexpr Option option_table[] = {
      .key = "angle",
      .unit = "degrees",
      .text = "Its direction from x, counter-clockwise."},
-    later("crack", "law", "", "As in [contact], for this crack only."),
-    later("crack", "normal_stiffness", "Pa/m", "As in [contact], for this crack only."),
-    later("crack", "tangential_stiffness", "Pa/m", "As in [contact], for this crack only."),
-    later("crack", "friction", "", "As in [contact], for this crack only."),
-    later("crack", "cohesion", "Pa", "As in [contact], for this crack only."),
-    later("crack", "cohesive_stiffness", "Pa/m", "As in [contact], for this crack only."),
-    later("crack", "critical_gap", "m", "As in [contact], for this crack only."),
+    {.section = "crack", .key = "law", .kind = choice, .choices = laws, .text = as_in_contact},
+    faces("crack", "normal_stiffness", "Pa/m", positive, as_in_contact),
+    faces("crack", "tangential_stiffness", "Pa/m", positive, as_in_contact),
+    faces("crack", "friction", "", not_negative, as_in_contact),
+    faces("crack", "cohesion", "Pa", not_negative, as_in_contact),
+    faces("crack", "cohesive_stiffness", "Pa/m", positive, as_in_contact),
+    faces("crack", "critical_gap", "m", positive, as_in_contact),
 
     {.section = "crack_field",
      .key = "count",
@@ -379,9 +379,9 @@ constexpr Option option_table[] = {
      .key = "checkpoint_every",
      .kind = integer,
      .range = {.low = 0.0, .high = 1e6},
-     .only = "0",
-     .standard = "0",
-     .text = "Load steps between checkpoints; 0: never."},
+     .standard = "10",
+     .text = "Load steps between checkpoints, from which `--restart` goes on; 0: none but the one "
+             "of a run that is asked to stop."},
     {.section = "output",
      .key = "pictures",
      .kind = boolean,
@@ -390,8 +390,6 @@ constexpr Option option_table[] = {
 };
 
 }  // namespace
-
-std::span<const OptionSection> option_sections() { return section_table; }
 
 std::span<const Option> options() { return option_table; }
 

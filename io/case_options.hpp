@@ -53,10 +53,7 @@ struct Option {
   std::string_view unit = {};
   OptionRange range = {};
   std::string_view choices = {};  ///< words separated by '|', for OptionKind::choice
-  std::string_view later = {};    ///< choices of later versions, separated by '|'
-  std::string_view only =
-      {};  ///< the only value (TOML) that this version accepts, where others are for later
-  bool whole_key_later = false;  ///< for later versions altogether
+  bool whole_key_later = false;   ///< for later versions altogether
   bool required = false;
   std::string_view standard = {};  ///< default, as TOML; empty: none
   std::string_view excludes =

@@ -135,7 +135,9 @@ class BlockCheck {
     const bool replaced =
         std::any_of(others.begin(), others.end(), [&](const auto& key) { return was_given(key); });
     if (option.standard.empty() || replaced || goes_without(option)) return;
-    block_.set(option.key, parse_toml_value(option.standard).value()).line = block_.line;
+    auto& node = block_.set(option.key, parse_toml_value(option.standard).value());
+    node.line = block_.line;
+    node.is_default = true;
   }
 
   bool goes_without(const Option& option) const {

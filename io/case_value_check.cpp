@@ -14,22 +14,12 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 /// Empty when the word is allowed.
 std::string choice_mistake(const Option& option, const std::string& word) {
   const auto now = words_of(option.choices);
-  const auto later = words_of(option.later);
-  if (contains(now, word)) return {};
+  if (std::find(now.begin(), now.end(), word) != now.end()) return {};
   const auto allowed = quoted_words(now, "and");
   const std::string verb = now.size() == 1 ? "is" : "are";
-  if (contains(later, word)) {
-    return fmt::format(
-        "The value \"{}\" is known, but this version does not support it yet; allowed {} {}.", word,
-        verb, allowed);
-  }
   const auto found = fmt::format("Found the text \"{}\"; allowed {} {}", word, verb, allowed);
   return found + did_you_mean(word, now, ".");
 }
@@ -152,14 +142,7 @@ void check_value(const Option& option, const ConfigNode& value, const std::strin
     problems.push_back(problem_at(value, path, later_sentence("key")));
     return;
   }
-  const auto before = problems.size();
   check_shape(option, value, path, problems);
-  if (problems.size() > before || option.only.empty()) return;
-  if (toml_value(value) == option.only) return;
-  problems.push_back(problem_at(
-      value, path,
-      fmt::format("The value {} is known, but this version does not support it yet; allowed is {}.",
-                  toml_value(value), option.only)));
 }
 
 }  // namespace cdca

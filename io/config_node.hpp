@@ -24,6 +24,7 @@ struct ConfigNode {
   std::vector<ConfigNode> items;   ///< of a list or a table
   int line = 0;                    ///< 1-based; 0 when the value comes from no file
   bool from_command_line = false;  ///< set by --set
+  bool is_default = false;         ///< not given, filled in from the table of options
 
   bool is_number() const { return kind == ConfigKind::integer || kind == ConfigKind::number; }
 

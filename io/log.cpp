@@ -56,11 +56,12 @@ std::string step_line(const Summary& summary, int total_steps) {
                             step.growth_cycles, step.solver_iterations, duration(step.wall_s));
 }
 
-std::string progress_bar(int done, int total, double elapsed_s) {
+std::string progress_bar(int done, int total, double elapsed_s, int before) {
   const double share = total > 0 ? std::clamp(static_cast<double>(done) / total, 0.0, 1.0) : 0.0;
   const auto full = static_cast<std::size_t>(share * bar_width);
-  const std::string left =
-      share > 0.0 ? duration(elapsed_s * (1.0 - share) / share) + " left" : "time left unknown";
+  const std::string left = done > before
+                               ? duration(elapsed_s * (total - done) / (done - before)) + " left"
+                               : "time left unknown";
   return fmt::format("[{}{}] {:.0f} %, {}", std::string(full, '#'),
                      std::string(bar_width - full, '-'), 100.0 * share, left);
 }
@@ -70,6 +71,7 @@ ProgressLog::ProgressLog(std::FILE* out, int total_steps, bool bar)
 
 void ProgressLog::on_start(const Summary& summary) {
   start_ = std::chrono::steady_clock::now();
+  steps_before_ = static_cast<int>(summary.steps.size());
   line(fmt::format("{}: {} elements, {} nodes, {} unknowns on {} rank{}",
                    summary.title.empty() ? "run" : summary.title, summary.elements, summary.nodes,
                    summary.unknowns, summary.ranks, summary.ranks == 1 ? "" : "s"));
@@ -79,8 +81,9 @@ void ProgressLog::on_step(const StepView& view) {
   line(step_line(view.summary, total_steps_));
   if (out_ == nullptr || !bar_ || view.last) return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  fmt::print(out_, "{}",
-             progress_bar(view.summary.steps.back().step, total_steps_, elapsed.count()));
+  fmt::print(
+      out_, "{}",
+      progress_bar(view.summary.steps.back().step, total_steps_, elapsed.count(), steps_before_));
   std::fflush(out_);
 }
 

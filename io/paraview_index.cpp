@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
+#include <optional>
+#include <system_error>
 
 namespace cdca {
 namespace {
@@ -28,6 +31,19 @@ std::string data_arrays(const std::vector<ResultArray>& arrays, bool on_points) 
   for (const ResultArray& array : arrays)
     if (array.on_points == on_points) text += data_array(array);
   return text + "    </" + element + ">\n";
+}
+
+/// The number in "step_0007.pvtu" and "step_0007_0003.vtu"; none for other files.
+std::optional<int> step_in(const std::filesystem::path& file) {
+  constexpr std::string_view prefix = "step_";
+  const auto name = file.filename().string();
+  const bool is_ours =
+      name.starts_with(prefix) && (file.extension() == ".vtu" || file.extension() == ".pvtu");
+  int number = 0;
+  const char* end = name.data() + name.size();
+  const bool has_number =
+      is_ours && std::from_chars(name.data() + prefix.size(), end, number).ec == std::errc();
+  return has_number ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -90,6 +106,22 @@ ParaviewSeries::ParaviewSeries(std::filesystem::path directory, std::string name
 
 std::filesystem::path ParaviewSeries::piece(int step, int rank) const {
   return folder() / piece_file(step, rank);
+}
+
+void ParaviewSeries::begin(const std::vector<std::pair<int, double>>& earlier) {
+  steps_.clear();
+  for (const auto& step : earlier)
+    if (std::filesystem::exists(folder() / step_file(step.first))) steps_.push_back(step);
+  std::error_code error;
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder(), error)) {
+    const auto number = step_in(entry.path());
+    const bool is_known =
+        std::any_of(steps_.begin(), steps_.end(), [&](auto& step) { return step.first == number; });
+    if (number && !is_known) others.push_back(entry.path());
+  }
+  for (const auto& file : others) remove_old(file);
+  if (!steps_.empty()) write_text(directory_ / (name_ + ".pvd"), pvd_text());
 }
 
 void ParaviewSeries::add(int step, double load_factor, int ranks) {

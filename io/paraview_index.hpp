@@ -41,6 +41,10 @@ class ParaviewSeries {
   std::filesystem::path folder() const { return directory_ / name_; }
   std::filesystem::path piece(int step, int rank) const;
 
+  /// Begins with the steps of an earlier run, as far as their files are there, and removes the
+  /// files of all other steps. Throws IoError.
+  void begin(const std::vector<std::pair<int, double>>& earlier);
+
   /// Lists a step whose pieces are all written, and rewrites the index. Throws IoError.
   void add(int step, double load_factor, int ranks);
 

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <fstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -31,33 +33,26 @@ void make_folder(const fs::path& folder) {
                   (error ? error.message() : "a file of that name is in the way") + ".");
 }
 
-void remove_file(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw IoError("Cannot remove the old " + file.string() + ": " + error.message() + ".");
-}
-
-bool is_step_file(const fs::path& file) {
-  return file.filename().string().starts_with("step_") &&
-         (file.extension() == ".vtu" || file.extension() == ".pvtu");
-}
-
-void remove_step_files(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_step_file(entry.path())) found.push_back(entry.path());
-  std::for_each(found.begin(), found.end(), remove_file);
+/// The rows of tips.csv that belong to steps up to `last`; the step stands first in a row. What a
+/// broken write left of a row is none.
+std::string rows_up_to(int last, const fs::path& table) {
+  std::ifstream file(table, std::ios::binary);
+  std::string rows = tips_csv_header(), row;
+  for (bool is_head = true; std::getline(file, row) && !file.eof(); is_head = false) {
+    if (!is_head && std::atoi(row.c_str()) <= last) rows += row + '\n';
+  }
+  return rows;
 }
 
 }  // namespace
 
 ResultWriter::ResultWriter(fs::path directory, int every, Communicator& comm,
-                           std::string effective_case)
+                           std::string effective_case, std::optional<fs::path> continued)
     : directory_(std::move(directory)),
       every_(std::max(every, 1)),
       comm_(comm),
       effective_case_(std::move(effective_case)),
+      continued_(std::move(continued)),
       fields_(directory_, "fields", field_arrays()),
       cracks_(directory_, "cracks", crack_arrays()) {
   together(comm_, [&] {
@@ -68,13 +63,22 @@ ResultWriter::ResultWriter(fs::path directory, int every, Communicator& comm,
 void ResultWriter::on_start(const Summary& summary) {
   together(comm_, [&] {
     if (!comm_.is_root()) return;
-    for (const char* name : old_files) remove_file(directory_ / name);
-    for (const auto& folder : {fields_.folder(), cracks_.folder()}) {
-      make_folder(folder);
-      remove_step_files(folder);
+    const int last = summary.steps.empty() ? 0 : summary.steps.back().step;
+    std::string rows = tips_csv_header();
+    std::vector<std::pair<int, double>> earlier;
+    if (continued_) {
+      rows = rows_up_to(last, *continued_ / "tips.csv");
+      for (const StepRecord& step : summary.steps)
+        earlier.emplace_back(step.step, step.load_factor);
+    } else {
+      for (const char* name : old_files) remove_old(directory_ / name);
+    }
+    for (auto* series : {&fields_, &cracks_}) {
+      make_folder(series->folder());
+      series->begin(earlier);
     }
     if (!effective_case_.empty()) write_text(directory_ / "effective.toml", effective_case_);
-    write_text(directory_ / "tips.csv", tips_csv_header());
+    write_text(directory_ / "tips.csv", rows);
     write_tables(summary);
   });
 }

@@ -7,6 +7,7 @@
 #include "io/paraview_index.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace cdca {
@@ -17,11 +18,13 @@ class ResultWriter final : public Observer {
  public:
   /// Makes the folder, so that a run which cannot write fails before it computes; all ranks
   /// together. `effective_case` is the case with all defaults filled in, kept as effective.toml;
-  /// may be empty.
+  /// may be empty. `continued`: the result folder of the run that goes on, mostly the same one.
   ResultWriter(std::filesystem::path directory, int every, Communicator& comm,
-               std::string effective_case = {});
+               std::string effective_case = {},
+               std::optional<std::filesystem::path> continued = {});
 
-  /// Removes what an earlier run left in the folder, and nothing else that lies there.
+  /// Removes what an earlier run left in the folder, and nothing else that lies there; of the run
+  /// that goes on, what it wrote after the steps of the summary.
   void on_start(const Summary& summary) override;
   void on_step(const StepView& view) override;
   void on_finish(const Summary& summary) override;
@@ -34,6 +37,7 @@ class ResultWriter final : public Observer {
   int every_;
   Communicator& comm_;
   std::string effective_case_;
+  std::optional<std::filesystem::path> continued_;
   ParaviewSeries fields_;
   ParaviewSeries cracks_;
 };

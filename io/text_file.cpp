@@ -42,4 +42,10 @@ void append_text(const std::filesystem::path& file, std::string_view text) {
   put(file, text, std::ios::app);
 }
 
+void remove_old(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw IoError("Cannot remove the old " + file.string() + ": " + error.message() + ".");
+}
+
 }  // namespace cdca

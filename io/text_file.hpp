@@ -13,4 +13,7 @@ void write_text(const std::filesystem::path& file, std::string_view text);
 /// Adds text at the end of a file, which is created when it is missing. Throws IoError.
 void append_text(const std::filesystem::path& file, std::string_view text);
 
+/// Removes a file that may be there. Throws IoError.
+void remove_old(const std::filesystem::path& file);
+
 }  // namespace cdca

@@ -44,6 +44,11 @@ struct Rectangle {
 /// the copies stay bitwise equal; hash() shows whether they did.
 class CrackRegistry {
  public:
+  CrackRegistry() = default;
+  /// Cracks of a run that goes on, and what has happened to them.
+  CrackRegistry(std::vector<Crack> cracks, std::vector<Event> events)
+      : cracks_(std::move(cracks)), events_(std::move(events)) {}
+
   /// Adds an initial crack with two active ends. points: m, at least two.
   void add(std::string name, std::vector<Vec2> points);
   /// Finds where initial cracks end on the rim, on the ends or on the faces of cracks, their own

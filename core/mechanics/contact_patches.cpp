@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/contact_patches.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,6 +55,15 @@ ContactPatches::ContactPatches(const StructuredGrid& grid, const std::vector<Con
 
 double ContactPatches::fraction(int crack, int segment, const Vec2& x) const {
   return run_of(crack, segment)->fraction(x);
+}
+
+void ContactPatches::put_back(const std::vector<ContactPatch>& patches) {
+  const auto same = [](const ContactPatch& a, const ContactPatch& b) {
+    return a.crack == b.crack && a.segment == b.segment && a.from == b.from;
+  };
+  if (!std::equal(patches.begin(), patches.end(), patches_.begin(), patches_.end(), same))
+    throw IoError("The checkpoint does not fit the case: other faces touch.");
+  patches_ = patches;
 }
 
 const ContactPatches::Run* ContactPatches::run_of(int crack, int segment) const {

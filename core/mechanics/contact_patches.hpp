@@ -43,6 +43,9 @@ class ContactPatches final : public FaceSprings {
   ContactPatches(const StructuredGrid& grid, const std::vector<ContactSpec>& laws,
                  const std::vector<Crack>& cracks, const ContactPatches* previous);
 
+  /// Takes over history and answers of the same patches. Throws IoError when they are others.
+  void put_back(const std::vector<ContactPatch>& patches);
+
   bool empty() const { return patches_.empty(); }
   const std::vector<ContactPatch>& patches() const { return patches_; }
   std::vector<ContactPatch>& patches() { return patches_; }

@@ -46,9 +46,9 @@ void ContactSpots::add_face(const BasisContext& c, const std::vector<Crack>& cra
                     face.minus_element,
                     face.plus_part,
                     face.minus_part,
-                    {double(face.crack), a.x(), a.y(), b.x(), b.y()},
+                    Segment{double(face.crack), a.x(), a.y(), b.x(), b.y()},
                     evaluated});
-  const auto known = slips.find(faces_.back().key);
+  const auto known = slips.find(faces_.back().segment);
   const StructuredGrid& grid = c.mesh.grid();
   const auto along = [&](double s) {
     return patches.fraction(face.crack, face.segment,
@@ -62,7 +62,7 @@ void ContactSpots::add_face(const BasisContext& c, const std::vector<Crack>& cra
         return share.from + double(n) / double(found.size()) * (share.to - share.from);
       };
       const double from = along(cut(k)), to = along(cut(k + 1));
-      Slip slip{std::min(from, to), std::max(from, to), 0.0};
+      Slip slip{faces_.back().segment, std::min(from, to), std::max(from, to), 0.0};
       if (known != slips.end()) slip.slip = slip_over(known->second, slip.from, slip.to);
       spots_.push_back({faces_.size() - 1, share.patch, slip, found[k]});
     }
@@ -170,8 +170,22 @@ double ContactSpots::accept(const ContactPatches& patches, std::span<const doubl
 
 ContactSpots::Slips ContactSpots::slips() const {
   Slips slips;
-  for (const Spot& spot : spots_) slips[faces_[spot.face].key].push_back(spot.slip);
+  for (const Spot& spot : spots_) slips[spot.slip.segment].push_back(spot.slip);
   return slips;
+}
+
+std::vector<ContactSpots::Slip> ContactSpots::all_slips(Communicator& communicator) const {
+  std::vector<Slip> own;
+  for (const Spot& spot : spots_) {
+    if (faces_[spot.face].evaluated) own.push_back(spot.slip);
+  }
+  return communicator.agree(own, std::less<Slip>());
+}
+
+ContactSpots::Slips ContactSpots::by_segment(const std::vector<Slip>& slips) {
+  Slips sorted;
+  for (const Slip& slip : slips) sorted[slip.segment].push_back(slip);
+  return sorted;
 }
 
 void ContactSpots::find_bodies(const BodyOf& body_of, ContactPatches& patches,

@@ -4,6 +4,7 @@
 
 #include "core/mechanics/contact_patches.hpp"
 
+#include <compare>
 #include <functional>
 #include <map>
 #include <vector>
@@ -13,14 +14,21 @@ namespace cdca {
 /// The places where the springs of the patches act, with what the faces have slipped at each.
 class ContactSpots {
  public:
+  /// A segment of a crack, known by its ends (m), which growth does not change.
+  struct Segment {
+    double crack, ax, ay, bx, by;
+    auto operator<=>(const Segment&) const = default;
+  };
   /// Slip that does not come back on unloading, over a stretch of a segment.
   struct Slip {
+    Segment segment{};
     double from = 0.0;  ///< fractions of the segment
     double to = 0.0;
     double slip = 0.0;  ///< m, zero on new faces
+    auto operator<=>(const Slip&) const = default;
   };
-  /// By crack and ends of the segment, which growth does not change.
-  using Slips = std::map<std::array<double, 5>, std::vector<Slip>>;
+  using Slips = std::map<Segment, std::vector<Slip>>;
+  static Slips by_segment(const std::vector<Slip>& slips);
 
   ContactSpots() = default;
   /// The spots of all elements that this rank holds; slips: of faces that were there before.
@@ -40,7 +48,10 @@ class ContactSpots {
   double accept(const ContactPatches& patches, std::span<const double> state,
                 Communicator& communicator);
 
+  /// Of the elements that this rank holds.
   Slips slips() const;
+  /// Of the whole body, the same on every rank. Collective.
+  std::vector<Slip> all_slips(Communicator& communicator) const;
 
   /// Sets the bodies on the sides of every patch. body_of(element, part): number, asked for
   /// elements that this rank evaluates. Collective.
@@ -53,7 +64,7 @@ class ContactSpots {
     FaceGeometry geometry;
     GridIndex plus, minus;  ///< elements
     int plus_part, minus_part;
-    std::array<double, 5> key;  ///< of the segment
+    Segment segment;
     bool evaluated;             ///< by this rank
   };
   struct Spot {

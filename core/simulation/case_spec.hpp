@@ -75,7 +75,8 @@ struct LoadingSpec {
 };
 
 struct OutputSpec {
-  int every = 1;  ///< load steps between field files
+  int every = 1;              ///< load steps between field files
+  int checkpoint_every = 10;  ///< load steps between checkpoints; 0: none
   bool pictures = true;
 };
 

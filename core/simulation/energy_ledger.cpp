@@ -3,6 +3,20 @@
 
 namespace cdca {
 
+EnergyLedger::EnergyLedger(const EnergyTotals& totals, std::vector<double> state,
+                           std::vector<double> forces)
+    : external_work_(totals.external_work),
+      strain_energy_(totals.strain_energy),
+      potential_(totals.potential),
+      support_potential_(totals.support_potential),
+      factor_(totals.factor),
+      state_(std::move(state)),
+      forces_(std::move(forces)) {}
+
+EnergyTotals EnergyLedger::totals() const {
+  return {external_work_, strain_energy_, potential_, support_potential_, factor_};
+}
+
 void EnergyLedger::keep(const Model& model, const Equilibrium& e, double factor) {
   const CellStiffness& cells = model.stiffness();
   strain_energy_ = e.strain_energy;
@@ -41,6 +55,8 @@ void EnergyLedger::new_cracks_and_factor(const Model& model, const Equilibrium& 
   external_work_ += 0.5 * (factor_ + factor) * (loads - loads_before) +
                     0.5 * (supports_before + supports) * (factor - factor_);
   keep(model, e, factor);
+  state_.clear();  // the cracks grow before the next one
+  forces_.clear();
 }
 
 }  // namespace cdca

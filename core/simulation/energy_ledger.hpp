@@ -6,10 +6,23 @@
 
 namespace cdca {
 
+/// What a ledger has added up, J per metre of thickness.
+struct EnergyTotals {
+  double external_work = 0.0;
+  double strain_energy = 0.0;      ///< at the last equilibrium
+  double potential = 0.0;          ///< of the loads there: forces times displacements
+  double support_potential = 0.0;  ///< of the supports there
+  double factor = 0.0;             ///< that the loads there are proportional to
+};
+
 /// Adds up the work of loads and supports from one equilibrium to the next; what is not stored as
 /// strain energy has been spent on new cracks. J per metre of thickness.
 class EnergyLedger {
  public:
+  EnergyLedger() = default;
+  /// Goes on from totals(), and from the displacements and forces() of the last equilibrium.
+  EnergyLedger(const EnergyTotals& totals, std::vector<double> state, std::vector<double> forces);
+
   /// The next equilibrium with the same cracks as the last one, under other loads: trapezoidal, and
   /// exact since the body is linear as long as no crack grows.
   void new_loads(const Model& model, const Equilibrium& equilibrium);
@@ -25,6 +38,11 @@ class EnergyLedger {
   double external_work() const { return external_work_; }
   /// External work less strain energy.
   double dissipated() const { return external_work_ - strain_energy_; }
+
+  EnergyTotals totals() const;
+  /// Of loads and supports at the last equilibrium, on own cells; empty where the next one does not
+  /// ask for them.
+  const std::vector<double>& forces() const { return forces_; }
 
  private:
   void keep(const Model& model, const Equilibrium& equilibrium, double factor);

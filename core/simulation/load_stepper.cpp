@@ -96,16 +96,25 @@ void scale(Model& model, Equilibrium& equilibrium, std::vector<TipAssessment>& t
   }
 }
 
+/// The first load step that is left to be done: the case may have other steps now than it had.
+std::size_t next_step(const std::vector<double>& factors, const Progress& at) {
+  if (at.steps == 0 && at.cycles == 0) return 0;
+  const double margin = 1e-9 * at.load_factor;
+  const double from = at.cycles > 0 ? at.load_factor - margin : at.load_factor + margin;
+  return std::size_t(std::lower_bound(factors.begin(), factors.end(), from) - factors.begin());
+}
+
 }  // namespace
 
-void run_prescribed(Model& model, Recorder& recorder) {
+void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
   const CaseSpec& spec = model.spec();
   const auto solver = make_solver(model);
   const GrowthCriterion criterion(model);
-  const bool joined = model.joins_loaded_boundaries();
-  EnergyLedger energy;
-  for (std::size_t k = 0; k < spec.load_factors.size(); ++k) {
-    StepResult result{int(k) + 1, spec.load_factors[k], 0, k + 1 == spec.load_factors.size()};
+  auto& [at, energy] = start;
+  for (std::size_t k = next_step(spec.load_factors, at); k < spec.load_factors.size(); ++k) {
+    StepResult result{at.steps + 1, spec.load_factors[k], at.cycles,
+                      k + 1 == spec.load_factors.size()};
+    at.load_factor = result.load_factor;
     compare_registries(model);
     Equilibrium equilibrium = solve(model, *solver, result.load_factor, recorder);
     note_fragments(model, result.step, 0);
@@ -122,7 +131,7 @@ void run_prescribed(Model& model, Recorder& recorder) {
           next_increments(model, *solver, result.load_factor, criterion, tips, 1.0 - equal_index);
       recorder.cycle(model, result.step, cycle, tips, increments);
       advance(model, increments, result.step, ++cycle);
-      separated = joined && !model.joins_loaded_boundaries();
+      separated = at.joined && !model.joins_loaded_boundaries();
       if (separated) {
         note_fragments(model, result.step, cycle);
         equilibrium = unloaded(model);
@@ -134,6 +143,8 @@ void run_prescribed(Model& model, Recorder& recorder) {
       note_fragments(model, result.step, cycle);
       energy.new_cracks(model, equilibrium);
       tips = criterion.assess(model, result.load_factor);
+      at.cycles = cycle;
+      if (recorder.rest(model, energy, at)) return;
     }
     recorder.cycle(model, result.step, result.growth_cycles, tips, {});
     if (separated) {
@@ -143,19 +154,21 @@ void run_prescribed(Model& model, Recorder& recorder) {
     }
     recorder.step(model, result, equilibrium, energy, tips);
     if (separated) return;
+    at.steps = result.step;
+    at.cycles = 0;
+    if (recorder.rest(model, energy, at, result.last)) return;
   }
 }
 
-void run_critical(Model& model, Recorder& recorder) {
+void run_critical(Model& model, Recorder& recorder, RunStart start) {
   const CaseSpec& spec = model.spec();
   const auto solver = make_solver(model);
   const GrowthCriterion criterion(model);
-  const bool joined = model.joins_loaded_boundaries();
-  EnergyLedger energy;
-  double largest = 0.0;
-  for (int event = 1;; ++event) {
+  auto& [at, energy] = start;
+  double& largest = at.largest_factor;
+  for (int event = at.steps + 1;; ++event) {
     compare_registries(model);
-    if (joined && !model.joins_loaded_boundaries()) {
+    if (at.joined && !model.joins_loaded_boundaries()) {
       const Equilibrium nothing = unloaded(model);
       energy.broken();
       note_fragments(model, event, 0);
@@ -188,6 +201,9 @@ void run_critical(Model& model, Recorder& recorder) {
     recorder.step(model, result, equilibrium, energy, tips);
     advance(model, increments, event, 1);
     for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
+    at.steps = event;
+    at.load_factor = factor;
+    if (recorder.rest(model, energy, at)) return;
   }
 }
 

@@ -30,7 +30,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_, partition_cells(grid_, weights, communicator_, partitioner),
                     communicator_.rank());
-  build_cells();
+  build_cells(spots_.slips());
   refuse_loose_bodies();
 }
 
@@ -42,7 +42,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
-  build_cells();
+  build_cells(spots_.slips());
   refuse_loose_bodies();
 }
 
@@ -62,8 +62,7 @@ std::vector<ContactSpec> Model::contact_laws() const {
   return laws;
 }
 
-void Model::build_cells() {
-  const ContactSpots::Slips slips = spots_.slips();
+void Model::build_cells(const ContactSpots::Slips& slips) {
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
   supports_ = Supports(basis(), spec_.boundaries);
   state_.assign(std::size_t(unknowns_.count()), 0.0);
@@ -148,7 +147,7 @@ void Model::lay_cracks(CrackRegistry registry) {
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), &contact_);
   zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
-  build_cells();
+  build_cells(spots_.slips());
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
   build_stiffness();
 }
@@ -172,6 +171,17 @@ std::vector<std::size_t> Model::bodies_at(const std::vector<Vec2>& places) const
   }
   communicator_.sum(std::span<std::int64_t>(found));
   return {found.begin(), found.end()};
+}
+
+void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches,
+                     const std::vector<ContactSpots::Slip>& slips) {
+  registry_ = std::move(registry);
+  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
+  contact_.put_back(patches);
+  cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
+  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  build_cells(ContactSpots::by_segment(slips));
+  build_stiffness();
 }
 
 std::vector<double> Model::springs() const {

@@ -35,6 +35,13 @@ class Model {
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
   void lay_cracks(CrackRegistry registry);
 
+  /// As lay_cracks() with cracks and contact of a run that goes on; the displacements are left at
+  /// 0. Throws IoError when the patches are not those of the cracks. Collective.
+  void put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches,
+                const std::vector<ContactSpots::Slip>& slips);
+  /// What all faces have slipped. Collective.
+  std::vector<ContactSpots::Slip> slips() const { return spots_.all_slips(communicator_); }
+
   /// Takes over a registry that differs from the model's by its events only.
   void replace_events(CrackRegistry registry) { registry_ = std::move(registry); }
 
@@ -89,7 +96,7 @@ class Model {
 
  private:
   void place_cracks();
-  void build_cells();
+  void build_cells(const ContactSpots::Slips& slips);
   void find_bodies();
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;

@@ -2,7 +2,7 @@
 /// Who wants to see a run go by: writers of results, the progress line, tests.
 #pragma once
 
-#include "core/simulation/snapshot.hpp"
+#include "core/simulation/checkpoint.hpp"
 
 #include <functional>
 #include <vector>
@@ -20,6 +20,17 @@ struct StepView {
   bool last;       ///< no step follows
 };
 
+/// A place between two growth cycles or load steps where a run can be left, to go on later.
+struct RestPoint {
+  const Progress& progress;
+  std::function<Checkpoint()> checkpoint;  ///< with the cells of this rank; made when asked for
+  bool last;                               ///< nothing is left to be done
+
+  bool ends_step() const { return progress.cycles == 0; }
+  /// The load step that ends here, or the one under way.
+  int step() const { return progress.steps + (ends_step() ? 0 : 1); }
+};
+
 /// Called on all ranks together, in the order on_start, on_step for every load step, on_finish. A
 /// run that fails after on_start still ends with on_finish, and a summary that says so.
 class Observer {
@@ -27,6 +38,8 @@ class Observer {
   virtual ~Observer() = default;
   virtual void on_start(const Summary& /*summary*/) {}
   virtual void on_step(const StepView& /*view*/) {}
+  /// True, on all ranks, ends the run here for now.
+  virtual bool on_rest(const RestPoint& /*point*/) { return false; }
   virtual void on_finish(const Summary& /*summary*/) {}
 };
 

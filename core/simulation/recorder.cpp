@@ -48,12 +48,19 @@ Recorder::Recorder(const CaseSpec& spec, const std::string& version, Communicato
   }
 }
 
-void Recorder::start(const Model& model) {
+void Recorder::start(const Model& model, RunStory before) {
   started_ = true;
+  summary_.steps = std::move(before.steps);
+  summary_.tips = std::move(before.tips);
+  summary_.performance = std::move(before.performance);
+  if (!summary_.steps.empty()) summary_.load_factor = summary_.steps.back().load_factor;
+  cycle_tips_ = std::move(before.cycle_tips);
+  iterations_of_step_ = before.step_iterations;
+  seconds_before_ = summary_.performance.wall_s;
   summary_.elements = model.grid().element_count();
   summary_.nodes = model.grid().node_count();
   summary_.unknowns = communicator_.sum(std::int64_t(model.unknowns().owned()));
-  summary_.performance.setup_s = watch_.seconds();
+  summary_.performance.setup_s += watch_.seconds();
   record_cracks(model);
   measure(model.unknowns().owned());
   for (Observer* o : observers_) o->on_start(summary_);
@@ -101,6 +108,26 @@ void Recorder::step(const Model& model, const StepResult& result, const Equilibr
   iterations_of_step_ = 0;
 }
 
+bool Recorder::rest(const Model& model, const EnergyLedger& energy, const Progress& progress,
+                    bool last) {
+  const RestPoint point{progress,
+                        [&] {
+                          return take_checkpoint(model, energy, progress,
+                                                 {summary_.steps, summary_.tips, cycle_tips_,
+                                                  summary_.performance, iterations_of_step_});
+                        },
+                        last};
+  const Stopwatch output;
+  for (Observer* o : observers_) left_ = o->on_rest(point) || left_;
+  summary_.performance.output_s += output.seconds();
+  if (!left_) return false;
+  record_cracks(model);
+  const std::string where = point.ends_step() ? "after" : "in";
+  set_status("running", "stopped " + where + " step " + std::to_string(point.step()) +
+                            " as asked; --restart goes on from there.");
+  return true;
+}
+
 void Recorder::set_status(const std::string& status, const std::string& message) {
   summary_.status = status;
   summary_.message = message;
@@ -108,7 +135,7 @@ void Recorder::set_status(const std::string& status, const std::string& message)
 
 void Recorder::finish() {
   measure(-1);
-  if (summary_.status == "running") summary_.status = "completed";
+  if (summary_.status == "running" && !left_) summary_.status = "completed";
   for (Observer* o : observers_) o->on_finish(summary_);
 }
 
@@ -137,7 +164,7 @@ StepRecord Recorder::step_record(const Model& model, const StepResult& result, c
   record.active_tips = model.registry().active_tips();
   record.growth_cycles = result.growth_cycles;
   record.solver_iterations = iterations_of_step_;
-  record.wall_s = watch_.seconds();
+  record.wall_s = seconds();
   return record;
 }
 
@@ -180,7 +207,7 @@ void Recorder::measure(LocalId owned) {
     p.unknowns_per_rank[rank] = owned;
     communicator_.sum(std::span<std::int64_t>(p.unknowns_per_rank));
   }
-  p.wall_s = communicator_.max(watch_.seconds());
+  p.wall_s = communicator_.max(seconds());
 }
 
 }  // namespace cdca

@@ -27,7 +27,8 @@ class Recorder {
 
   const Summary& summary() const { return summary_; }
 
-  void start(const Model& model);
+  /// `before`: the story of a run that goes on.
+  void start(const Model& model, RunStory before = {});
   /// Every linear solve of the run, the trial ones included.
   void solved(const SolverReport& report, double seconds);
   /// The tips of one growth cycle, and what the growing ones did.
@@ -35,6 +36,9 @@ class Recorder {
              const std::vector<Increment>& increments);
   void step(const Model& model, const StepResult& result, const Equilibrium& equilibrium,
             const EnergyLedger& energy, const std::vector<TipAssessment>& tips);
+  /// Between growth cycles and load steps; true: the run is to stop here. Collective.
+  bool rest(const Model& model, const EnergyLedger& energy, const Progress& progress,
+            bool last = false);
   /// How the run ended: "completed" unless said otherwise.
   void set_status(const std::string& status, const std::string& message);
   void finish();
@@ -46,6 +50,7 @@ class Recorder {
   void record_cracks(const Model& model);
   void record_tips(const Model& model, int step, const std::vector<TipAssessment>& tips);
   void measure(LocalId owned);
+  double seconds() const { return seconds_before_ + watch_.seconds(); }
 
   const CaseSpec& spec_;
   Communicator& communicator_;
@@ -54,7 +59,9 @@ class Recorder {
   Summary summary_;
   std::vector<TipRecord> cycle_tips_;
   int iterations_of_step_ = 0;
+  double seconds_before_ = 0.0;  ///< that the run took before it was continued
   bool started_ = false;
+  bool left_ = false;  ///< stopped before its end
 };
 
 }  // namespace cdca

@@ -7,16 +7,23 @@
 namespace cdca {
 
 Summary run_simulation(const CaseSpec& spec, const std::string& version, Communicator& communicator,
-                       const Partitioner& partitioner, std::span<Observer* const> observers) {
+                       const Partitioner& partitioner, std::span<Observer* const> observers,
+                       const Checkpoint* from) {
   Recorder recorder(spec, version, communicator, observers);
   Model model(spec, communicator, partitioner);
-  model.build_stiffness();
-  recorder.start(model);
+  RunStart start;
+  if (from) {
+    start = {from->progress, put_back(*from, model)};
+  } else {
+    start.progress.joined = model.joins_loaded_boundaries();
+    model.build_stiffness();
+  }
+  recorder.start(model, from ? from->story : RunStory());
   try {
     if (spec.loading.critical) {
-      run_critical(model, recorder);
+      run_critical(model, recorder, std::move(start));
     } else {
-      run_prescribed(model, recorder);
+      run_prescribed(model, recorder, std::move(start));
     }
   } catch (const SolveError& error) {
     recorder.fail(error.what());

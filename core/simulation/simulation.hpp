@@ -10,9 +10,11 @@
 namespace cdca {
 
 /// Runs all load steps and shows each to the observers. Returns what summary.json holds. Throws
-/// InputError and SolveError after telling the observers that the run has failed. Collective.
+/// InputError and SolveError after telling the observers that the run has failed. `from`: where an
+/// earlier run of the same case was left. Collective.
 Summary run_simulation(const CaseSpec& spec, const std::string& version, Communicator& communicator,
-                       const Partitioner& partitioner, std::span<Observer* const> observers);
+                       const Partitioner& partitioner, std::span<Observer* const> observers,
+                       const Checkpoint* from = nullptr);
 
 /// Size of a case, without solving it. Collective.
 struct CaseMeasure {

@@ -51,7 +51,6 @@ TEST(CaseOptions, HaveWordsForChoicesAndOnlyForThem) {
   for (const auto& option : options()) {
     const bool is_choice = option.kind == OptionKind::choice;
     EXPECT_EQ(is_choice, !option.choices.empty()) << option.path();
-    EXPECT_TRUE(is_choice || option.later.empty()) << option.path();
     for (const auto& key : words_of(option.excludes))
       EXPECT_NE(find_option(option.section, key), nullptr) << key;
     const auto condition = option.no_standard_if;
@@ -88,7 +87,7 @@ TEST(CaseOptions, OfLaterVersionsAreRefusedEverywhere) {
     EXPECT_NE(problems[0].message.find("is known, but this version does not support it yet"),
               std::string::npos);
   }
-  EXPECT_GT(tried, 10);
+  EXPECT_EQ(tried, 2);  // domain.mesh and material.field
 }
 
 TEST(CaseOptions, MakeTheManualInTheDocumentation) {
