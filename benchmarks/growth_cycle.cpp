@@ -1,55 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// One growth cycle (all tips advance by an element: cracks laid, equilibrium from the old one)
-/// against a cold set-up and solve, in one process.
+/// One growth cycle (tips advance by an element: cracks laid, equilibrium from the old one) against
+/// a cold set-up and solve of the same plate, in one process.
 ///
-/// usage: bench_growth_cycle NX CRACKS [CYCLES]; prints one line of comma-separated values.
+/// usage: bench_growth_cycle NX CRACKS TIPS [RUNS]; prints one line of comma-separated values.
 #include "benchmarks/plate_case.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/simulation/equilibrium.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 namespace cdca::benchmarks {
 namespace {
 
-CrackRegistry grown(const Model& model, int cycle) {
+/// The first `tips` tips go on by an element.
+CrackRegistry grown(const Model& model, int tips) {
   CrackRegistry registry = model.registry();
   const double step = model.grid().smallest_side();
-  for (std::size_t c = 0; c < model.registry().cracks().size(); ++c) {
-    const Crack& crack = model.registry().cracks()[c];
-    for (int end = 0; end < 2; ++end) {
-      const Vec2 to = crack.end_point(end) + step * crack.end_tangent(end);
-      registry.advance(int(c), end, to, TipState::active, -1, 1, cycle);
-    }
+  for (int k = 0; k < std::min(tips, 2 * int(model.registry().cracks().size())); ++k) {
+    const Crack& crack = model.registry().cracks()[std::size_t(k / 2)];
+    const Vec2 to = crack.end_point(k % 2) + step * crack.end_tangent(k % 2);
+    registry.advance(k / 2, k % 2, to, TipState::active, -1, 1, 0);
   }
   return registry;
 }
 
-int measure(int nx, int cracks, int cycles) {
+int measure(int nx, int cracks, int tips, int runs) {
   const CaseSpec spec = plate_in_tension(nx, cracks);
   SerialCommunicator alone;
-  std::vector<double> cold, set_up, warm;
+  std::vector<double> cold, set_up, warm, ratio;
   int cold_iterations = 0, warm_iterations = 0;
+  std::int64_t all = 0, factors = 0;
   double unknowns = 0.0;
-  for (int cycle = 0; cycle < cycles; ++cycle) {
+  for (int run = 0; run < runs; ++run) {
     Stopwatch watch;
     Model model(spec, alone, Partitioner());
     model.build_stiffness();
     cold_iterations = find_equilibrium(model, *make_solver(model), 1.0).solver.iterations;
     cold.push_back(watch.seconds());
     unknowns = double(model.unknowns().owned());
+    all = model.hierarchy().factors().made();
 
-    const CrackRegistry registry = grown(model, cycle);
+    const CrackRegistry registry = grown(model, tips);
     watch.restart();
     model.lay_cracks(registry);
     set_up.push_back(watch.seconds());
     warm_iterations = find_equilibrium(model, *make_solver(model), 1.0).solver.iterations;
     warm.push_back(watch.seconds());
+    ratio.push_back(warm.back() / cold.back());
+    factors = model.hierarchy().factors().made();
   }
-  std::printf("%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%.3f\n", nx, cracks, unknowns, cycles,
-              median(cold), cold_iterations, median(set_up), median(warm), warm_iterations,
-              median(warm) / median(cold));
+  std::printf("%d,%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%lld,%lld,%.3f\n", nx, cracks, tips, unknowns,
+              runs, median(cold), cold_iterations, median(set_up), median(warm), warm_iterations,
+              (long long)all, (long long)factors, median(ratio));
   return 0;
 }
 
@@ -57,11 +61,12 @@ int measure(int nx, int cracks, int cycles) {
 }  // namespace cdca::benchmarks
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
+  if (argc < 4) {
     std::puts(
-        "nx,cracks,unknowns,runs,cold_s,cold_iterations,set_up_s,cycle_s,cycle_iterations,ratio");
+        "nx,cracks,tips,unknowns,runs,cold_s,cold_iterations,set_up_s,cycle_s,cycle_iterations,"
+        "windows,windows_factored,ratio");
     return argc == 1 ? 0 : 2;
   }
-  return cdca::benchmarks::measure(std::atoi(argv[1]), std::atoi(argv[2]),
-                                   argc > 3 ? std::atoi(argv[3]) : 5);
+  return cdca::benchmarks::measure(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]),
+                                   argc > 4 ? std::atoi(argv[4]) : 5);
 }

@@ -3,6 +3,7 @@
 /// same system, in one process and on one core.
 ///
 /// usage: bench_race_cholmod NX CRACKS [RUNS]; prints one line of comma-separated values.
+#include "benchmarks/assembled.hpp"
 #include "benchmarks/plate_case.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/simulation/equilibrium.hpp"
@@ -14,68 +15,6 @@
 
 namespace cdca::benchmarks {
 namespace {
-
-using Index = SuiteSparse_long;
-
-/// The lower triangle of K row by row, which is the upper one column by column; rows and columns of
-/// held unknowns are those of the identity.
-class Assembled {
- public:
-  explicit Assembled(const CellStiffness& cells)
-      : cells_(cells),
-        held_(std::size_t(cells.count()), 0),
-        run_of_(std::size_t(cells.count()), -1),
-        row_of_(std::size_t(cells.count()), -1) {
-    for (const LocalId u : cells.held()) held_[std::size_t(u)] = 1;
-    const auto& runs = cells.regular().runs();
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      for (LocalId k = 0; k < 2 * runs[r].count; ++k)
-        run_of_[std::size_t(2 * runs[r].node + k)] = int(r);
-    }
-    for (std::size_t r = 0; r < cells.rows().unknown.size(); ++r)
-      row_of_[std::size_t(cells.rows().unknown[r])] = int(r);
-    start.push_back(0);
-    for (LocalId u = 0; u < cells.owned(); ++u) {
-      add_row(u);
-      start.push_back(Index(column.size()));
-    }
-  }
-  std::vector<Index> start, column;
-  std::vector<double> value;
-
- private:
-  void add_row(LocalId u) {
-    if (held_[std::size_t(u)]) {
-      column.push_back(u);
-      value.push_back(1.0);
-      return;
-    }
-    const auto add = [&](LocalId v, double entry) {
-      if (v > u || held_[std::size_t(v)]) return;
-      column.push_back(v);
-      value.push_back(entry);
-    };
-    if (run_of_[std::size_t(u)] < 0) {
-      const StiffnessRows& rows = cells_.rows();
-      const auto row = std::size_t(row_of_[std::size_t(u)]);
-      for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-        add(rows.column[k], rows.value[k]);
-      return;
-    }
-    const RegularRun& run = cells_.regular().runs()[std::size_t(run_of_[std::size_t(u)])];
-    const LocalId along = u / 2 - run.node;
-    const LocalId nodes[3] = {run.below + along, run.node + along, run.above + along};
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t m = 0; m < 6; ++m) {
-        add(2 * (nodes[r] - 1) + LocalId(m), cells_.regular().stencil()[r][std::size_t(u % 2)][m]);
-      }
-    }
-  }
-
-  const CellStiffness& cells_;
-  std::vector<char> held_;
-  std::vector<int> run_of_, row_of_;
-};
 
 struct Direct {
   double seconds = 0.0;  ///< assembly, analysis, factor and solution
@@ -96,9 +35,9 @@ Direct solve_directly(const CellStiffness& cells, std::vector<double> forces) {
   const auto size = std::size_t(cells.owned());
   cholmod_sparse matrix{};
   matrix.nrow = matrix.ncol = size;
-  matrix.nzmax = k.column.size();
+  matrix.nzmax = k.row.size();
   matrix.p = k.start.data();
-  matrix.i = k.column.data();
+  matrix.i = k.row.data();
   matrix.x = k.value.data();
   matrix.stype = 1;
   matrix.itype = CHOLMOD_LONG;
@@ -127,18 +66,6 @@ Direct solve_directly(const CellStiffness& cells, std::vector<double> forces) {
   cholmod_l_free_factor(&factor, &common);
   cholmod_l_finish(&common);
   return result;
-}
-
-/// Forces of the prescribed displacements, as find_equilibrium() has them.
-std::vector<double> forces_of(const Model& model, std::vector<double>& prescribed) {
-  const CellStiffness& cells = model.stiffness();
-  std::vector<double> product(std::size_t(cells.count()), 0.0);
-  prescribed.assign(product.size(), 0.0);
-  model.supports().prescribe(model.spec().boundaries, 1.0, prescribed);
-  cells.apply(prescribed, product);
-  for (double& f : product) f = -f;
-  cells.clear_held(product);
-  return product;
 }
 
 int race(int nx, int cracks, int runs) {

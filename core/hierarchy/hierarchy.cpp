@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/hierarchy.hpp"
 
+#include "core/hierarchy/coarse_supports.hpp"
+
 #include <algorithm>
 
 namespace cdca {
@@ -66,11 +68,14 @@ class Hierarchy::Level final : public Scale {
     transfer_ = std::make_unique<Transfer>(Transfer::Scale{*mesh_, *unknowns_, parts}, *next.mesh_,
                                            *next.unknowns_, *next.parts_);
   }
-  void set_cells(const std::vector<GlobalId>& own_rows, std::vector<char> held,
-                 std::vector<double> springs, Communicator& communicator) {
+  void set_cells(std::vector<GlobalId> own_rows, const CoarseSupports& supports,
+                 Communicator& communicator) {
     CoarseElements elements(*mesh_, *unknowns_, *parts_);
-    own_cells_ = std::make_unique<CellStiffness>(*mesh_, *unknowns_, elements, held, springs,
-                                                 own_rows, Sweeps::none, communicator);
+    const auto at_points = supports.cells_at_points(*mesh_);
+    own_rows.insert(own_rows.end(), at_points.begin(), at_points.end());
+    own_cells_ =
+        std::make_unique<CellStiffness>(*mesh_, *unknowns_, elements, supports.held(),
+                                        supports.springs(), own_rows, Sweeps::none, communicator);
     cells_ = own_cells_.get();
   }
   void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors) {
@@ -80,6 +85,7 @@ class Hierarchy::Level final : public Scale {
   void set_coarsest() { coarsest_ = std::make_unique<CoarsestSolve>(*cells_); }
 
   const CoarseParts* parts() const { return parts_.get(); }
+  const CellStiffness& stiffness() const { return *cells_; }
   const CellUnknowns& unknowns() const { return *unknowns_; }
   const Transfer& transfer() const { return *transfer_; }
 
@@ -132,10 +138,10 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     levels_[0]->set_coarsest();
     return;
   }
-  levels_[0]->set_smoother(
-      finest_plans_, plain_stiffness(basis.mesh.grid().element_size(), finest.elastic), factors_);
+  const PlainStiffness element = plain_stiffness(basis.mesh.grid().element_size(), finest.elastic);
+  levels_[0]->set_smoother(finest_plans_, element, factors_);
+  CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
-  std::vector<double> held(finest.held.begin(), finest.held.end()), springs = finest.springs;
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     levels_.emplace_back(new Level(
         meshes_[k], std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic),
@@ -144,24 +150,14 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
     const Halo halo = level.halo(communicator);
-    const auto coarse = [&](const std::vector<double>& fine) {
+    supports.coarsen(levels_[k]->stiffness(), [&](const std::vector<double>& fine) {
       std::vector<double> sum(std::size_t(level.unknowns().count()), 0.0);
       levels_[k]->transfer().to_coarse(fine, halo, sum);
       return sum;
-    };
-    held = coarse(held);
-    std::vector<char> held_now;
-    for (double& h : held) held_now.push_back(h > 0), h = h > 0;
-    if (!springs.empty()) {
-      // a spring of four children weighs as much as theirs together
-      const double strength = 4 * *std::max_element(springs.begin(), springs.end());
-      springs = coarse(springs);
-      for (double& s : springs) s = s > 0 ? strength : 0;
-    }
+    });
     const bool coarsest = k + 1 == meshes_.size();
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
-    level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), held_now, springs,
-                    communicator);
+    level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), supports, communicator);
     if (coarsest) {
       level.set_coarsest();
     } else {

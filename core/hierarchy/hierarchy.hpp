@@ -30,9 +30,6 @@ struct FinestScale {
 };
 
 /// All scales of a body.
-///
-/// A coarse unknown is held when any of its children is: coarse moves vanish at supports, and no
-/// coarse element needs to know of them.
 class Hierarchy final : public Scales {
  public:
   explicit Hierarchy(const HierarchyShape& shape = {}) : shape_(shape) {}

@@ -46,6 +46,13 @@ void sort_once(std::vector<GlobalId>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
+int rounded_up(int a, int b) { return (a + b - 1) / b; }
+
+/// From one square to the next of its colour in a row: a cell lies between their windows.
+int period_of(const WindowShape& shape) {
+  return 1 + rounded_up(2 * shape.overlap + 1, shape.tile);
+}
+
 /// Windows for the cells near cracks outside wide zones.
 void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
                const WindowShape& shape, WindowPlans& plans) {
@@ -54,6 +61,8 @@ void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
     const GridIndex n = grid.node_index(id);
     tiles[{n.j / shape.tile, n.i / shape.tile}].push_back(n);
   }
+  const int period = period_of(shape);
+  const int around = rounded_up(shape.overlap + shape.reach, shape.tile);
   for (const auto& [tile, own] : tiles) {
     const auto [tj, ti] = tile;
     const Box box{{std::max(0, ti * shape.tile - shape.overlap),
@@ -61,9 +70,9 @@ void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
                   {std::min(grid.nx(), (ti + 1) * shape.tile - 1 + shape.overlap),
                    std::min(grid.ny(), (tj + 1) * shape.tile - 1 + shape.overlap)}};
     WindowPlan window;
-    window.colour = 2 * (tj % 2) + ti % 2;
-    for (int nj = tj - 1; nj <= tj + 1; ++nj) {
-      for (int ni = ti - 1; ni <= ti + 1; ++ni) {
+    window.colour = period * (tj % period) + ti % period;
+    for (int nj = tj - around; nj <= tj + around; ++nj) {
+      for (int ni = ti - around; ni <= ti + around; ++ni) {
         const auto near = tiles.find({nj, ni});
         if (near == tiles.end()) continue;
         for (const GridIndex n : near->second) add_round(grid, n, shape.reach, box, window.nodes);
@@ -74,8 +83,9 @@ void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
   }
 }
 
-/// Windows for wide zones; their cells are taken out of the seeds.
-void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones,
+/// Windows for wide zones, in colours from `first_colour` on; their cells are taken out of the
+/// seeds.
+void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones, int first_colour,
                std::vector<GlobalId>& seeds, WindowPlans& plans) {
   std::vector<std::pair<Box, int>> placed;
   std::set<GlobalId> inside;
@@ -88,8 +98,7 @@ void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones,
       add_round(grid, grid.node_index(id), 1, everything, window.nodes);
     sort_once(window.nodes);
     inside.insert(zone.nodes.begin(), zone.nodes.end());
-    // four colours are the squares'
-    window.colour = 4;
+    window.colour = first_colour;
     const auto clashes = [&](const auto& other) {
       return other.second == window.colour && !other.first.apart_from(box, 3);
     };
@@ -116,7 +125,7 @@ WindowPlans plan_windows(const ElementParts& elements, const std::vector<TipZone
     plans.near_cracks.insert(plans.near_cracks.end(), zone.nodes.begin(), zone.nodes.end());
   sort_once(plans.near_cracks);
   std::vector<GlobalId> seeds = plans.near_cracks;
-  add_zones(grid, zones, seeds, plans);
+  add_zones(grid, zones, period_of(shape) * period_of(shape), seeds, plans);
   add_tiles(grid, seeds, shape, plans);
   for (const WindowPlan& w : plans.windows) plans.colours = std::max(plans.colours, w.colour + 1);
   return plans;

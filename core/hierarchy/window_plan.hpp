@@ -23,7 +23,7 @@ struct WindowPlans {
   std::vector<GlobalId> near_cracks;
 };
 
-/// Sizes in elements.
+/// Sizes in elements; any will do (docs/solver.md tells why).
 struct WindowShape {
   int tile = 8;     ///< the grid is divided into squares of so many nodes
   int overlap = 2;  ///< by which a window reaches into the squares next to its own

@@ -16,6 +16,7 @@ struct SolverOptions {
 };
 
 struct SolverReport {
+  /// The residual is within the tolerance, or as small as rounding of u lets it be.
   bool converged = false;
   int iterations = 0;     ///< sweeps of the rule, or steps of CG
   double residual = 0.0;  ///< relative to `scale`

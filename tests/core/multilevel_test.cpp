@@ -151,6 +151,33 @@ TEST(MultilevelParallel, TakesTheSameStepsOnAnyRanks) {
   }
 }
 
+/// Windows are exact and act in turn, so none is too large, nor is any overlap: docs/solver.md.
+TEST(MultilevelParallel, WindowsOfAnyShape) {
+  const Built plate(cracked());
+  const Model& model = plate.model;
+  const auto held = model.supports().flags(model.unknowns().count());
+  const ElasticMatrix elastic = model.material().elastic_matrix();
+  Vector forces = plate.zeros(0);
+  add_external_forces(model.basis(), model.loads(1.0), forces);
+  plate.cells(0).clear_held(forces);
+  const double scale = std::sqrt(plate.cells(0).dot(forces, forces));
+  const auto iterations = [&](const WindowShape& shape) {
+    Hierarchy hierarchy({shape, 40});
+    const auto own_rows = hierarchy.plan(model.basis());
+    StiffnessCache cache;
+    FinestElements elements(model.basis(), elastic, cache, nullptr);
+    const CellStiffness cells(model.mesh(), model.unknowns(), elements, held, {}, own_rows,
+                              Sweeps::none, world());
+    hierarchy.build({model.basis(), elastic, held, {}, nullptr}, cells);
+    Vector u = plate.zeros(0);
+    return make_multilevel({1e-10, 1.0, 100}, hierarchy)->solve(cells, forces, u, scale).iterations;
+  };
+  const int usual = iterations(WindowShape());
+  for (const WindowShape& shape : {WindowShape{1, 6, 6}, {8, 8, 8}, {64, 0, 2}}) {
+    EXPECT_LE(iterations(shape), usual + 2) << shape.tile << " " << shape.overlap;
+  }
+}
+
 TEST(MultilevelParallel, GrowthRebuildsOnlyTheWindowsThatItTouches) {
   Built plate(cracked());
   const std::int64_t all = world().sum(plate.model.hierarchy().factors().made());

@@ -240,6 +240,19 @@ TEST(SolverParallel, SaysWhenItDidNotConverge) {
   }
 }
 
+TEST(SolverParallel, StopsWhereRoundingDoes) {
+  const Loaded plate(cracked_plate());
+  const auto solver = make_krylov({1e-30, 1.0, 0});
+  Vector u = plate.zeros();
+  const auto report = solver->solve(plate.cells(), plate.forces, u, plate.scale);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.residual, 1e-30);
+  EXPECT_LT(report.residual, 1e-11);
+  const auto again =
+      make_krylov({1e-30, 1.0, 2})->solve(plate.cells(), plate.forces, u, plate.scale);
+  EXPECT_FALSE(again.converged) << "stopped by the limit of iterations";
+}
+
 TEST(SolverParallel, StartsFromWhereItIs) {
   const Loaded plate(cracked_plate());
   const auto solver = make_krylov({1e-9, 1.0, 0});
