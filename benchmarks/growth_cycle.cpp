@@ -51,9 +51,9 @@ int measure(int nx, int cracks, int tips, int runs) {
     ratio.push_back(warm.back() / cold.back());
     factors = model.hierarchy().factors().made();
   }
-  std::printf("%d,%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%lld,%lld,%.3f\n", nx, cracks, tips, unknowns,
+  std::printf("%d,%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%.0f,%.0f,%.3f\n", nx, cracks, tips, unknowns,
               runs, median(cold), cold_iterations, median(set_up), median(warm), warm_iterations,
-              (long long)all, (long long)factors, median(ratio));
+              double(all), double(factors), median(ratio));
   return 0;
 }
 

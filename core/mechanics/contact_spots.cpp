@@ -41,12 +41,8 @@ void ContactSpots::add_face(const BasisContext& c, const std::vector<Crack>& cra
   const Vec2 &a = crack.points[std::size_t(face.segment)],
              &b = crack.points[std::size_t(face.segment) + 1];
   const FaceBasis basis(c, face, elastic);
-  faces_.push_back({basis.geometry(),
-                    face.plus_element,
-                    face.minus_element,
-                    face.plus_part,
-                    face.minus_part,
-                    Segment{double(face.crack), a.x(), a.y(), b.x(), b.y()},
+  faces_.push_back({basis.geometry(), face.plus_element, face.minus_element, face.plus_part,
+                    face.minus_part, Segment{double(face.crack), a.x(), a.y(), b.x(), b.y()},
                     evaluated});
   const auto known = slips.find(faces_.back().segment);
   const StructuredGrid& grid = c.mesh.grid();

@@ -65,7 +65,7 @@ class ContactSpots {
     GridIndex plus, minus;  ///< elements
     int plus_part, minus_part;
     Segment segment;
-    bool evaluated;             ///< by this rank
+    bool evaluated;  ///< by this rank
   };
   struct Spot {
     std::size_t face;

@@ -112,13 +112,12 @@ inline void expect_same(const Checkpoint& a, const Checkpoint& b) {
   ASSERT_EQ(a.patches.size(), b.patches.size());
   for (std::size_t k = 0; k < a.patches.size(); ++k) {
     const ContactPatch &p = a.patches[k], &q = b.patches[k];
-    EXPECT_EQ(
-        std::tie(p.crack, p.segment, p.from, p.to, p.length, p.largest, p.tangential,
-                 p.gap.normal, p.gap.tangential, p.now.state, p.now.normal, p.now.tangential,
-                 p.now.normal_spring, p.now.tangential_spring, p.now.largest),
-        std::tie(q.crack, q.segment, q.from, q.to, q.length, q.largest, q.tangential,
-                 q.gap.normal, q.gap.tangential, q.now.state, q.now.normal, q.now.tangential,
-                 q.now.normal_spring, q.now.tangential_spring, q.now.largest));
+    EXPECT_EQ(std::tie(p.crack, p.segment, p.from, p.to, p.length, p.largest, p.tangential,
+                       p.gap.normal, p.gap.tangential, p.now.state, p.now.normal, p.now.tangential,
+                       p.now.normal_spring, p.now.tangential_spring, p.now.largest),
+              std::tie(q.crack, q.segment, q.from, q.to, q.length, q.largest, q.tangential,
+                       q.gap.normal, q.gap.tangential, q.now.state, q.now.normal, q.now.tangential,
+                       q.now.normal_spring, q.now.tangential_spring, q.now.largest));
   }
   EXPECT_TRUE(a.slips == b.slips);
 }
