@@ -61,7 +61,7 @@ std::vector<CrackFace> ElementCuts::faces_of(GridIndex element) const {
     for (const InnerFace& f : cut->faces) {
       const PathStep& step = paths_.step_in(element, f.step);
       faces.push_back({corner + f.from, corner + f.to, step.crack, step.segment, element, element,
-                       f.plus, f.minus, step.to - step.from});
+                       f.plus, f.minus, step.along});
     }
   }
   add_side_faces(element, faces);
@@ -96,7 +96,7 @@ void ElementCuts::add_side_faces(GridIndex e, std::vector<CrackFace>& faces) con
                      other,
                      c.first,
                      c.second,
-                     step.to - step.from};
+                     step.along};
       // `along` has this element on its left for the right side, on its right for the upper one;
       // the face keeps the direction of the crack
       bool mine_is_plus = my_side == 1;

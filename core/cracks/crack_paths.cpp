@@ -149,7 +149,7 @@ CrackPaths::CrackPaths(const StructuredGrid& grid, const std::vector<Crack>& cra
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const auto bits = cut_by_grid(points[k], points[k + 1]);
       for (std::size_t l = 0; l + 1 < bits.size(); ++l) {
-        add_step({bits[l], bits[l + 1], chain.crack, chain.segment});
+        add_step({bits[l], bits[l + 1], chain.crack, chain.segment, chain.b - chain.a});
       }
     }
   }

@@ -15,7 +15,8 @@ struct PathStep {
   Vec2 from{0, 0};
   Vec2 to{0, 0};
   int crack = 0;
-  int segment = 0;  ///< of the crack's polyline
+  int segment = 0;   ///< of the crack's polyline
+  Vec2 along{0, 0};  ///< the whole segment: the direction of a short bit is not exact
 };
 
 /// An active tip, in grid coordinates.
