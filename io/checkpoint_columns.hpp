@@ -30,6 +30,8 @@ inline constexpr auto energy_columns = [](auto&& visit) {
       "support_potential", "J/m", [](auto& r) -> auto& { return r.support_potential; });
   visit(
       "factor", "", [](auto& r) -> auto& { return r.factor; });
+  visit(
+      "friction", "J/m", [](auto& r) -> auto& { return r.friction; });
 };
 
 /// A row of history.csv but for the reactions, which are a table of their own.
@@ -54,6 +56,10 @@ inline constexpr auto step_columns = [](auto&& visit) {
       "external_work", "J", [](auto& r) -> auto& { return r.external_work; });
   visit(
       "dissipated", "J", [](auto& r) -> auto& { return r.dissipated; });
+  visit(
+      "friction_work", "J", [](auto& r) -> auto& { return r.friction_work; });
+  visit(
+      "contact_iterations", "", [](auto& r) -> auto& { return r.contact_iterations; });
 };
 
 /// A support's force in a step: row i of the steps has the same number of these as every other.

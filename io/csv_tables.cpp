@@ -49,6 +49,8 @@ std::vector<TableCell> history_row(const std::vector<std::string>& reaction_name
   row.push_back({"wall_s", record.wall_s});
   row.push_back({"external_work", record.external_work});
   row.push_back({"dissipated", record.dissipated});
+  row.push_back({"friction_work", record.friction_work});
+  row.push_back({"contact_iterations", record.contact_iterations});
   return row;
 }
 

@@ -38,6 +38,12 @@ class SolveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The states of touching faces did not settle; a smaller load step may help.
+class ContactError : public SolveError {
+ public:
+  using SolveError::SolveError;
+};
+
 /// A file could not be read or written (exit status 4).
 class IoError : public std::runtime_error {
  public:

@@ -305,23 +305,26 @@ double fitted_opening(const ContactPatch& patch, const Material& material) {
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
     const ExternalLoads& loads, std::span<const double> state, Communicator& communicator,
-    const DomainReach& reach) {
+    const TipChoice& wanted, const DomainReach& reach) {
   const StructuredGrid& grid = context.mesh.grid();
   const double h = grid.element_size().maxCoeff();
-  std::vector<double> sums(2 * context.zones.size(), 0.0);
+  std::vector<double> sums;
   std::vector<StressIntensity> found;
-  for (std::size_t z = 0; z < context.zones.size(); ++z) {
-    const TipZone& zone = context.zones[z];
+  std::vector<const TipZone*> zones;
+  for (const TipZone& zone : context.zones) {
+    if (wanted && !wanted(zone.crack, zone.end)) continue;
+    zones.push_back(&zone);
+    sums.resize(2 * zones.size(), 0.0);
     const double room = free_radius(grid, cracks, zone);
     const double radius = std::max(std::min(reach.wanted * h, room), reach.smallest * h);
-    TipIntegral(context, zone, material, loads, state, radius).add(&sums[2 * z]);
+    TipIntegral(context, zone, material, loads, state, radius).add(&sums[2 * zones.size() - 2]);
     found.push_back({zone.crack, zone.end, 0.0, 0.0, radius});
   }
   communicator.sum(std::span<double>(sums));
   for (std::size_t z = 0; z < found.size(); ++z) {
     found[z].k1 = 0.5 * material.fracture_modulus() * sums[2 * z];
     found[z].k2 = 0.5 * material.fracture_modulus() * sums[2 * z + 1];
-    if (const ContactPatch* patch = touching_patch(loads, cracks, context.zones[z])) {
+    if (const ContactPatch* patch = touching_patch(loads, cracks, *zones[z])) {
       found[z].k1 = fitted_opening(*patch, material);
       found[z].k1_fitted = true;
     }

@@ -7,6 +7,7 @@
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/williams.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace cdca {
@@ -29,6 +30,9 @@ struct DomainReach {
   double smallest = 4.0;
 };
 
+/// Which tips are asked for; empty: all.
+using TipChoice = std::function<bool(int crack, int end)>;
+
 /// Of every active tip, in the order of the zones; the same on all ranks. Collective.
 ///
 /// With P_j = s_ij u'_i,1 + s'_ij u_i,1 - s_ik e'_ik d_1j, the primed near-tip field of one mode,
@@ -47,6 +51,6 @@ struct DomainReach {
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
     const ExternalLoads& loads, std::span<const double> state, Communicator& communicator,
-    const DomainReach& reach = {});
+    const TipChoice& wanted = {}, const DomainReach& reach = {});
 
 }  // namespace cdca

@@ -10,11 +10,12 @@ EnergyLedger::EnergyLedger(const EnergyTotals& totals, std::vector<double> state
       potential_(totals.potential),
       support_potential_(totals.support_potential),
       factor_(totals.factor),
+      friction_(totals.friction),
       state_(std::move(state)),
       forces_(std::move(forces)) {}
 
 EnergyTotals EnergyLedger::totals() const {
-  return {external_work_, strain_energy_, potential_, support_potential_, factor_};
+  return {external_work_, strain_energy_, potential_, support_potential_, factor_, friction_};
 }
 
 void EnergyLedger::keep(const Model& model, const Equilibrium& e, double factor) {

@@ -13,18 +13,19 @@ struct EnergyTotals {
   double potential = 0.0;          ///< of the loads there: forces times displacements
   double support_potential = 0.0;  ///< of the supports there
   double factor = 0.0;             ///< that the loads there are proportional to
+  double friction = 0.0;           ///< work against friction so far
 };
 
 /// Adds up the work of loads and supports from one equilibrium to the next; what is not stored as
-/// strain energy has been spent on new cracks. J per metre of thickness.
+/// strain energy has been spent on friction and new cracks. J per metre of thickness.
 class EnergyLedger {
  public:
   EnergyLedger() = default;
   /// Goes on from totals(), and from the displacements and forces() of the last equilibrium.
   EnergyLedger(const EnergyTotals& totals, std::vector<double> state, std::vector<double> forces);
 
-  /// The next equilibrium with the same cracks as the last one, under other loads: trapezoidal, and
-  /// exact since the body is linear as long as no crack grows.
+  /// The next equilibrium with the same cracks as the last one, under other loads: trapezoidal,
+  /// which is exact for a linear body, and balances what friction takes (also trapezoidal) for any.
   void new_loads(const Model& model, const Equilibrium& equilibrium);
   /// The next equilibrium under the same loads with longer cracks.
   void new_cracks(const Model& model, const Equilibrium& equilibrium);
@@ -32,11 +33,14 @@ class EnergyLedger {
   /// the last equilibrium's to this one's.
   void new_cracks_and_factor(const Model& model, const Equilibrium& equilibrium, double factor);
 
+  /// Friction has taken so much since the last time.
+  void add_friction(double work) { friction_ += work; }
   /// The body has come apart: what was stored is spent.
   void broken() { strain_energy_ = 0.0; }
 
   double external_work() const { return external_work_; }
-  /// External work less strain energy.
+  double friction() const { return friction_; }
+  /// External work less strain energy: spent on friction and new cracks.
   double dissipated() const { return external_work_ - strain_energy_; }
 
   EnergyTotals totals() const;
@@ -52,6 +56,7 @@ class EnergyLedger {
   double potential_ = 0.0;  ///< of the loads at the last equilibrium: forces times displacements
   double support_potential_ = 0.0;
   double factor_ = 0.0;
+  double friction_ = 0.0;
   std::vector<double> state_;
   std::vector<double> forces_;  ///< loads and supports together
 };

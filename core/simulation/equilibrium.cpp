@@ -95,7 +95,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
        << most << " iterations; smaller load steps may help.";
-  throw SolveError(text.str());
+  throw ContactError(text.str());
 }
 
 }  // namespace

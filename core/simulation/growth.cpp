@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/growth.hpp"
 
+#include "core/base/errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,19 +143,34 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
   if (!any) return;
   const CrackRegistry registry = model.registry();
   const bool joined = model.joins_loaded_boundaries();
+  const Model::ContactMemory memory = model.contact_memory();
+  const auto back = [&] {
+    model.remember(memory);
+    model.lay_cracks(registry);
+  };
   for (int trial = 0; trial < most_trials; ++trial) {
     CrackRegistry ahead = registry;
     apply_increments(increments_of(model, plans), model.touch_distance(), 1, 0, ahead);
     model.lay_cracks(ahead);
     if (joined && !model.joins_loaded_boundaries()) {
       // the step cuts the body apart: there is no field to correct it by
-      model.lay_cracks(registry);
+      back();
       return;
     }
-    find_equilibrium(model, solver, load_factor);
-    const auto intensities =
-        stress_intensities(model.basis(), model.registry().cracks(), model.material(),
-                           model.loads(load_factor), model.state(), model.communicator());
+    try {
+      find_equilibrium(model, solver, load_factor);
+    } catch (const ContactError&) {
+      back();
+      return;
+    }
+    const auto is_corrected = [&](int crack, int end) {
+      return std::any_of(plans.begin(), plans.end(), [&](const GrowthPlan& p) {
+        return p.correct && p.crack == crack && p.end == end;
+      });
+    };
+    const auto intensities = stress_intensities(model.basis(), model.registry().cracks(),
+                                                model.material(), model.loads(load_factor),
+                                                model.state(), model.communicator(), is_corrected);
     bool turned_any = false;
     for (GrowthPlan& plan : plans) {
       if (!plan.correct) continue;
@@ -166,7 +183,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
         turned_any = turned_any || std::abs(k.k2) > 0.01 * k.k1;
       }
     }
-    model.lay_cracks(registry);
+    back();
     if (!turned_any) break;
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace cdca {
 
@@ -12,6 +13,7 @@ namespace {
 
 /// Tips whose index differs by less than this grow together, whatever the rank count.
 constexpr double equal_index = 1e-6;
+constexpr int most_halvings = 6;  ///< of a load step whose contact does not settle
 const char* const cut_apart = "growth has cut the body apart between its loaded boundaries.";
 
 /// A difference between the copies of the registry is a bug that would spoil all that follows.
@@ -30,8 +32,33 @@ Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor,
                   Recorder& recorder) {
   const Stopwatch watch;
   Equilibrium equilibrium = find_equilibrium(model, solver, factor);
-  recorder.solved(equilibrium.solver, watch.seconds());
+  recorder.solved(equilibrium, watch.seconds());
   return equilibrium;
+}
+
+/// What faces have slipped and where they are open becomes history.
+void accept(Model& model, EnergyLedger& energy) { energy.add_friction(model.accept_contact()); }
+
+/// Equilibrium at load factor `to`; where touching faces do not settle, by way of the middle, and
+/// so on, at most `halvings` times.
+Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, double to,
+                  int halvings, Recorder& recorder, EnergyLedger& energy) {
+  const Model::ContactMemory memory = model.contact_memory();
+  const std::vector<double> state = model.state();
+  try {
+    const Equilibrium equilibrium = solve(model, solver, to, recorder);
+    energy.new_loads(model, equilibrium);
+    accept(model, energy);
+    return equilibrium;
+  } catch (const ContactError&) {
+    if (halvings == 0) throw;
+  }
+  model.remember(memory);
+  model.state() = state;
+  model.build_stiffness();
+  const double middle = 0.5 * (from + to);
+  reach(model, solver, from, middle, halvings - 1, recorder, energy);
+  return reach(model, solver, middle, to, halvings - 1, recorder, energy);
 }
 
 double greatest_index(const std::vector<TipAssessment>& tips) {
@@ -104,6 +131,56 @@ std::size_t next_step(const std::vector<double>& factors, const Progress& at) {
   return std::size_t(std::lower_bound(factors.begin(), factors.end(), from) - factors.begin());
 }
 
+/// The equilibrium at which the first tip reaches its index of 1, with the assessment of all tips.
+struct CriticalState {
+  Equilibrium equilibrium;
+  std::vector<TipAssessment> tips;
+  double factor = 1.0;
+  bool grows = true;  ///< some tip is opened by the loads
+};
+
+/// Without contact everything is proportional to the load factor.
+CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
+                                 const GrowthCriterion& criterion, Recorder& recorder) {
+  CriticalState found{solve(model, solver, 1.0, recorder), {}, 1.0, true};
+  found.tips = criterion.assess(model, 1.0);
+  const double u = greatest_index(found.tips);
+  found.grows = u > 0.0;
+  if (found.grows) found.factor = 1.0 / u;
+  scale(model, found.equilibrium, found.tips, found.factor);
+  return found;
+}
+
+/// Secants from the last factor: faces that touch and slip make the index a broken line.
+CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
+                                   const GrowthCriterion& criterion, Recorder& recorder,
+                                   double guess) {
+  constexpr int most = 25;
+  const Model::ContactMemory memory = model.contact_memory();
+  CriticalState found;
+  double before = 0.0, index_before = 0.0;  // no load, no index
+  for (int round = 0; round < most; ++round) {
+    if (round > 0) {
+      model.remember(memory);
+      model.build_stiffness();
+    }
+    found.factor = guess;
+    found.equilibrium = solve(model, solver, guess, recorder);
+    found.tips = criterion.assess(model, guess);
+    const double u = greatest_index(found.tips);
+    found.grows = u > 0.0;
+    if (!found.grows || std::abs(u - 1.0) < 0.5 * equal_index) return found;
+    double next = guess + (1.0 - u) * (guess - before) / (u - index_before);
+    if (!(next > 0.0) || !std::isfinite(next)) next = guess / u;
+    before = guess;
+    index_before = u;
+    guess = std::clamp(next, 0.1 * guess, 10 * guess);
+  }
+  throw ContactError(
+      "the load factor at which the next tip grows was not found; the states of "
+      "touching faces change with it.");
+}
+
 }  // namespace
 
 void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
@@ -114,11 +191,11 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
   for (std::size_t k = next_step(spec.load_factors, at); k < spec.load_factors.size(); ++k) {
     StepResult result{at.steps + 1, spec.load_factors[k], at.cycles,
                       k + 1 == spec.load_factors.size()};
-    at.load_factor = result.load_factor;
     compare_registries(model);
-    Equilibrium equilibrium = solve(model, *solver, result.load_factor, recorder);
+    Equilibrium equilibrium =
+        reach(model, *solver, at.load_factor, result.load_factor, most_halvings, recorder, energy);
+    at.load_factor = result.load_factor;
     note_fragments(model, result.step, 0);
-    energy.new_loads(model, equilibrium);
     auto tips = criterion.assess(model, result.load_factor);
     bool separated = false;
     for (int& cycle = result.growth_cycles; criterion.grows() && !separated;) {
@@ -132,16 +209,20 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
       recorder.cycle(model, result.step, cycle, tips, increments);
       advance(model, increments, result.step, ++cycle);
       separated = at.joined && !model.joins_loaded_boundaries();
+      if (!separated) {
+        equilibrium = solve(model, *solver, result.load_factor, recorder);
+        // faces that might have held the parts together may have opened
+        separated = at.joined && !model.joins_loaded_boundaries();
+      }
+      note_fragments(model, result.step, cycle);
       if (separated) {
-        note_fragments(model, result.step, cycle);
         equilibrium = unloaded(model);
         energy.broken();
         tips.clear();
         break;
       }
-      equilibrium = solve(model, *solver, result.load_factor, recorder);
-      note_fragments(model, result.step, cycle);
       energy.new_cracks(model, equilibrium);
+      accept(model, energy);
       tips = criterion.assess(model, result.load_factor);
       at.cycles = cycle;
       if (recorder.rest(model, energy, at)) return;
@@ -166,41 +247,45 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
   const GrowthCriterion criterion(model);
   auto& [at, energy] = start;
   double& largest = at.largest_factor;
+  const bool linear = model.contact().empty();
   for (int event = at.steps + 1;; ++event) {
     compare_registries(model);
-    if (at.joined && !model.joins_loaded_boundaries()) {
+    bool separated = at.joined && !model.joins_loaded_boundaries();
+    CriticalState now;
+    if (!separated) {
+      now = linear ? scaled_to_critical(model, *solver, criterion, recorder)
+                   : searched_to_critical(model, *solver, criterion, recorder,
+                                          at.load_factor > 0.0 ? at.load_factor : 1.0);
+      separated = at.joined && !model.joins_loaded_boundaries();
+    }
+    note_fragments(model, event, 0);
+    if (separated) {
       const Equilibrium nothing = unloaded(model);
       energy.broken();
-      note_fragments(model, event, 0);
       note(model, EventKind::separated, event, 0);
       recorder.set_status("separated", cut_apart);
       recorder.step(model, {event, 0.0, 0, true}, nothing, energy, {});
       return;
     }
-    Equilibrium equilibrium = solve(model, *solver, 1.0, recorder);
-    note_fragments(model, event, 0);
-    auto tips = criterion.assess(model, 1.0);
-    const double u = greatest_index(tips);
-    if (u <= 0.0) recorder.set_status("completed", "no tip is opened by the loads: nothing grows.");
-    // everything is proportional: the first tip reaches 1 at this factor
-    const double factor = u > 0.0 ? 1.0 / u : 1.0;
-    if (u > 0.0) largest = std::max(largest, factor);
+    if (!now.grows)
+      recorder.set_status("completed", "no tip is opened by the loads: nothing grows.");
+    const double factor = now.factor;
+    if (now.grows) largest = std::max(largest, factor);
     StepResult result{event, factor, 1, false};
-    result.last =
-        u <= 0.0 || event == spec.loading.max_events || factor < spec.loading.min_factor * largest;
-    scale(model, equilibrium, tips, factor);
-    energy.new_cracks_and_factor(model, equilibrium, factor);
-    if (result.last) {
-      recorder.cycle(model, event, 0, tips, {});
-      recorder.step(model, result, equilibrium, energy, tips);
-      return;
-    }
-    const auto increments =
-        next_increments(model, *solver, factor, criterion, tips, 1.0 - equal_index);
-    recorder.cycle(model, event, 0, tips, increments);
-    recorder.step(model, result, equilibrium, energy, tips);
+    result.last = !now.grows || event == spec.loading.max_events ||
+                  factor < spec.loading.min_factor * largest;
+    energy.new_cracks_and_factor(model, now.equilibrium, factor);
+    accept(model, energy);
+    std::vector<Increment> increments;
+    if (!result.last)
+      increments = next_increments(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);
+    recorder.cycle(model, event, 0, now.tips, increments);
+    recorder.step(model, result, now.equilibrium, energy, now.tips);
+    if (result.last) return;
     advance(model, increments, event, 1);
-    for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
+    if (linear) {
+      for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
+    }
     at.steps = event;
     at.load_factor = factor;
     if (recorder.rest(model, energy, at)) return;

@@ -51,8 +51,17 @@ void Model::place_cracks() {
   registry_.resolve_initial_meetings(body(), touch_distance());
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_));
   refuse_hidden_cracks();
-  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  find_zones();
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
+}
+
+void Model::find_zones() {
+  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  const auto laws = contact_laws();
+  // what holds cohesive faces together leaves no singular field
+  std::erase_if(zones_, [&](const TipZone& zone) {
+    return laws[std::size_t(zone.crack)].law == ContactLaw::cohesive;
+  });
 }
 
 std::vector<ContactSpec> Model::contact_laws() const {
@@ -85,6 +94,16 @@ std::size_t Model::body_of(GridIndex e, int part) const {
   std::size_t a = 0;
   while (nodes[a] < 0) ++a;
   return bodies_->body_of(nodes[a], unknowns_.piece(nodes[a], (a + 2) % 4, part));
+}
+
+void Model::close_new_faces() {
+  const auto held = held_bodies(true);
+  for (ContactPatch& p : contact_.patches()) {
+    const auto [a, b] = p.bodies;
+    if (a < 0 || b < 0 || a == b || p.now.state != ContactState::open) continue;
+    if (held[std::size_t(a)] && held[std::size_t(b)]) continue;
+    p.now = touching(contact_.law_of(p));
+  }
 }
 
 std::vector<char> Model::held_bodies(bool touching_only) const {
@@ -146,8 +165,9 @@ void Model::lay_cracks(CrackRegistry registry) {
   registry_ = std::move(registry);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), &contact_);
-  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  find_zones();
   build_cells(spots_.slips());
+  close_new_faces();
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
   build_stiffness();
 }
@@ -179,7 +199,7 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
   contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
   contact_.put_back(patches);
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
-  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  find_zones();
   build_cells(ContactSpots::by_segment(slips));
   build_stiffness();
 }

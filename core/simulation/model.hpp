@@ -39,6 +39,16 @@ class Model {
   /// 0. Throws IoError when the patches are not those of the cracks. Collective.
   void put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches,
                 const std::vector<ContactSpots::Slip>& slips);
+  /// States and slip of all faces, to go back to after a trial; lay_cracks() takes them up.
+  struct ContactMemory {
+    ContactPatches patches;
+    ContactSpots spots;
+  };
+  ContactMemory contact_memory() const { return {contact_, spots_}; }
+  void remember(const ContactMemory& memory) {
+    contact_ = memory.patches;
+    spots_ = memory.spots;
+  }
   /// What all faces have slipped. Collective.
   std::vector<ContactSpots::Slip> slips() const { return spots_.all_slips(communicator_); }
 
@@ -96,6 +106,9 @@ class Model {
 
  private:
   void place_cracks();
+  void find_zones();
+  /// Faces of bodies that nothing else holds touch until an equilibrium shows that they do not.
+  void close_new_faces();
   void build_cells(const ContactSpots::Slips& slips);
   void find_bodies();
   std::size_t body_of(GridIndex element, int part) const;

@@ -66,10 +66,13 @@ void Recorder::start(const Model& model, RunStory before) {
   for (Observer* o : observers_) o->on_start(summary_);
 }
 
-void Recorder::solved(const SolverReport& report, double seconds) {
+void Recorder::solved(const Equilibrium& equilibrium, double seconds) {
+  const SolverReport& report = equilibrium.solver;
   auto& p = summary_.performance;
   p.solve_s += seconds;
-  p.linear_solves += 1;
+  p.linear_solves += std::max(1, equilibrium.contact_iterations);
+  contact_iterations_of_step_ =
+      std::max(contact_iterations_of_step_, equilibrium.contact_iterations);
   p.solver_iterations = std::max(p.solver_iterations, report.iterations);
   iterations_of_step_ = std::max(iterations_of_step_, report.iterations);
 }
@@ -105,7 +108,7 @@ void Recorder::step(const Model& model, const StepResult& result, const Equilibr
   for (Observer* o : observers_) o->on_step(view);
   summary_.performance.output_s += communicator_.max(output.seconds());
   cycle_tips_.clear();
-  iterations_of_step_ = 0;
+  iterations_of_step_ = contact_iterations_of_step_ = 0;
 }
 
 bool Recorder::rest(const Model& model, const EnergyLedger& energy, const Progress& progress,
@@ -160,6 +163,8 @@ StepRecord Recorder::step_record(const Model& model, const StepResult& result, c
   record.strain_energy = thickness * e.strain_energy;
   record.external_work = thickness * energy.external_work();
   record.dissipated = thickness * energy.dissipated();
+  record.friction_work = thickness * energy.friction();
+  record.contact_iterations = contact_iterations_of_step_;
   record.crack_length = model.registry().length();
   record.active_tips = model.registry().active_tips();
   record.growth_cycles = result.growth_cycles;

@@ -30,7 +30,7 @@ class Recorder {
   /// `before`: the story of a run that goes on.
   void start(const Model& model, RunStory before = {});
   /// Every linear solve of the run, the trial ones included.
-  void solved(const SolverReport& report, double seconds);
+  void solved(const Equilibrium& equilibrium, double seconds);
   /// The tips of one growth cycle, and what the growing ones did.
   void cycle(const Model& model, int step, int cycle, const std::vector<TipAssessment>& tips,
              const std::vector<Increment>& increments);
@@ -59,6 +59,7 @@ class Recorder {
   Summary summary_;
   std::vector<TipRecord> cycle_tips_;
   int iterations_of_step_ = 0;
+  int contact_iterations_of_step_ = 0;
   double seconds_before_ = 0.0;  ///< that the run took before it was continued
   bool started_ = false;
   bool left_ = false;  ///< stopped before its end

@@ -56,7 +56,9 @@ struct StepRecord {
   int solver_iterations = 0;
   double wall_s = 0.0;         ///< since the start of the run
   double external_work = 0.0;  ///< J, since the start of the run
-  double dissipated = 0.0;     ///< J, external work that is not stored: spent on new cracks
+  double dissipated = 0.0;     ///< J, external work that is not stored: friction and new cracks
+  double friction_work = 0.0;  ///< J, the part that friction took
+  int contact_iterations = 0;  ///< most linear solves until touching faces settled; 0: none
 };
 
 /// A row of tips.csv, and a tip of summary.json.

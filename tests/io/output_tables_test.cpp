@@ -50,7 +50,8 @@ TEST(OutputSummary, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys_of(top["steps"][0]),
             (Keys{"step", "load_factor", "reaction_x_bottom", "reaction_y_bottom", "reaction_x_top",
                   "reaction_y_top", "strain_energy", "crack_length", "active_tips", "growth_cycles",
-                  "solver_iterations", "wall_s", "external_work", "dissipated"}));
+                  "solver_iterations", "wall_s", "external_work", "dissipated", "friction_work",
+                  "contact_iterations"}));
 }
 
 TEST(OutputSummary, HoldsTheValuesExactly) {
@@ -107,14 +108,16 @@ TEST(OutputTables, HistoryHasARowPerStep) {
   auto summary = sample_summary();
   summary.steps[1].external_work = 7.5;
   summary.steps[1].dissipated = 1.5;
+  summary.steps[1].friction_work = 0.5;
+  summary.steps[1].contact_iterations = 4;
   const auto lines = lines_of(history_csv(summary));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0],
             "step,load_factor,reaction_x_bottom,reaction_y_bottom,reaction_x_top,reaction_y_top,"
             "strain_energy,crack_length,active_tips,growth_cycles,solver_iterations,wall_s,"
-            "external_work,dissipated");
-  EXPECT_EQ(lines[1], "1,0.5,0,-10,0,10,1.5,0.012,1,1,40,0.25,0,0");
-  EXPECT_EQ(lines[2], "2,1,0.1,-20,-0.1,20,6,0.013,1,2,41,0.5,7.5,1.5");
+            "external_work,dissipated,friction_work,contact_iterations");
+  EXPECT_EQ(lines[1], "1,0.5,0,-10,0,10,1.5,0.012,1,1,40,0.25,0,0,0,0");
+  EXPECT_EQ(lines[2], "2,1,0.1,-20,-0.1,20,6,0.013,1,2,41,0.5,7.5,1.5,0.5,4");
 }
 
 TEST(OutputTables, HistoryBeforeTheFirstStepIsItsHeader) {
@@ -124,7 +127,7 @@ TEST(OutputTables, HistoryBeforeTheFirstStepIsItsHeader) {
   summary.reaction_names.clear();
   EXPECT_EQ(lines_of(history_csv(summary))[0],
             "step,load_factor,strain_energy,crack_length,active_tips,growth_cycles,"
-            "solver_iterations,wall_s,external_work,dissipated");
+            "solver_iterations,wall_s,external_work,dissipated,friction_work,contact_iterations");
 }
 
 TEST(OutputTables, TipsHaveTheColumnsOfTheContract) {
