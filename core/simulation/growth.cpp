@@ -28,6 +28,20 @@ bool has_grown(const Crack& crack, int end) {
   return (end == 0 ? crack.age.front() : crack.age.back()) > 0;
 }
 
+/// By how much a direction is turned to end with K_II at 0. At first as for a kink: turning the
+/// segment changes K_II at its end by about K_I / 2 a radian. Then by the secant: a wing that is
+/// driven by a sliding flaw feels a turn up to four times as much.
+double next_turn(GrowthPlan& plan, const StressIntensity& k) {
+  const double mix = k.k2 / k.k1;
+  double turn = hoop_angle(k.k1, k.k2);
+  if (plan.last_turn != 0.0 && mix != plan.last_mix)
+    turn = -mix * plan.last_turn / (mix - plan.last_mix);
+  const double widest = 2 * std::abs(hoop_angle(k.k1, k.k2));
+  plan.last_turn = rounded(std::clamp(turn, -widest, widest), 1e-6);
+  plan.last_mix = mix;
+  return plan.last_turn;
+}
+
 }  // namespace
 
 GrowthCriterion::GrowthCriterion(const Model& model) : spec_(model.spec().growth) {
@@ -176,8 +190,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
       if (!plan.correct) continue;
       for (const StressIntensity& k : intensities) {
         if (k.crack != plan.crack || k.end != plan.end || k.k1 <= 0.0) continue;
-        // turning the segment changes K_II at its end by about K_I / 2 a radian, as for a kink
-        const double turn = rounded(hoop_angle(k.k1, k.k2), 1e-6);
+        const double turn = next_turn(plan, k);
         if (std::abs(plan.angle + turn) > sharp_turn) continue;
         plan.angle += turn;
         turned_any = turned_any || std::abs(k.k2) > 0.01 * k.k1;

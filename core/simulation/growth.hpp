@@ -46,6 +46,9 @@ struct GrowthPlan {
   double angle = 0.0;
   double length = 0.0;
   bool correct = false;  ///< its direction is to be corrected
+  /// Of the trials so far: the last turn, rad, and K_II / K_I before it.
+  double last_turn = 0.0;
+  double last_mix = 0.0;
 };
 
 /// Plans for all tips with an index of at least `threshold`.

@@ -151,14 +151,18 @@ CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
   return found;
 }
 
-/// Secants from the last factor: faces that touch and slip make the index a broken line.
+/// Secants from the last factor: faces that touch and slip make the index a broken line. Where
+/// friction holds the faces when the load goes down, unloading does not stop a tip: it grows under
+/// the load that is there, with an index above 1.
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, Recorder& recorder,
                                    double guess) {
   constexpr int most = 25;
   const Model::ContactMemory memory = model.contact_memory();
   CriticalState found;
+  const double start = guess;
   double before = 0.0, index_before = 0.0;  // no load, no index
+  bool locked = false;
   for (int round = 0; round < most; ++round) {
     if (round > 0) {
       model.remember(memory);
@@ -169,12 +173,14 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
     found.tips = criterion.assess(model, guess);
     const double u = greatest_index(found.tips);
     found.grows = u > 0.0;
-    if (!found.grows || std::abs(u - 1.0) < 0.5 * equal_index) return found;
+    if (locked || !found.grows || std::abs(u - 1.0) < 0.5 * equal_index) return found;
+    const double slope = (u - index_before) / (guess - before);
+    locked = round > 0 && guess < start && u > 1.0 && slope < 0.3 * u / guess;
     double next = guess + (1.0 - u) * (guess - before) / (u - index_before);
     if (!(next > 0.0) || !std::isfinite(next)) next = guess / u;
     before = guess;
     index_before = u;
-    guess = std::clamp(next, 0.1 * guess, 10 * guess);
+    guess = locked ? start : std::clamp(next, 0.1 * guess, 10 * guess);
   }
   throw ContactError(
       "the load factor at which the next tip grows was not found; the states of "

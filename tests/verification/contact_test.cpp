@@ -40,7 +40,7 @@ CaseSpec pressed(int n, const std::vector<std::vector<Vec2>>& cuts, const Contac
 }
 
 /// Where a crack passes a node so closely that a sliver joins the part across it, the springs stand
-/// round the sliver: that is exact to about its size.
+/// round the sliver: that is exact to a thousandth only.
 bool has_slivers(const Model& model) {
   for (const GlobalId id : model.cuts().touched_elements()) {
     for (const auto& polygon : model.cuts().find(model.grid().element_index(id))->polygons) {
@@ -51,7 +51,7 @@ bool has_slivers(const Model& model) {
 }
 
 void expect_uniform(const Solved& s, const Voigt& stress) {
-  const double bar = has_slivers(*s.model) ? 1e-4 : 1e-8;
+  const double bar = has_slivers(*s.model) ? 1e-3 : 1e-8;
   for (int j = 0; j < 17; ++j) {
     for (int i = 0; i < 17; ++i) {
       const Vec2 x((i + 0.37) / 17, (j + 0.41) / 17);
@@ -76,9 +76,9 @@ TEST_P(ContactPatch, UniformStressPassesThroughCuts) {
       const auto& points = cuts[std::size_t(p.crack)];
       const Vec2 t = (points[1] - points[0]).normalized();
       EXPECT_EQ(p.now.state, ContactState::stick);
-      // where a path passes a node it may have been moved by 1e-6 of an element
-      EXPECT_NEAR(p.gap.normal, -t.x() * t.x() / normal, 1e-6 / normal);
-      EXPECT_NEAR(p.gap.tangential, -t.x() * t.y() / tangential, 1e-6 / tangential);
+      const double bar = has_slivers(*s.model) ? 1e-3 : 1e-9;
+      EXPECT_NEAR(p.gap.normal, -t.x() * t.x() / normal, bar / normal);
+      EXPECT_NEAR(p.gap.tangential, -t.x() * t.y() / tangential, bar / tangential);
     }
   }
 }
