@@ -187,6 +187,8 @@ inline constexpr auto patch_columns = [](auto&& visit) {
   visit(
       "length", "m", [](auto& r) -> auto& { return r.length; });
   visit(
+      "slip", "m", [](auto& r) -> auto& { return r.slip; });
+  visit(
       "largest_opening", "m", [](auto& r) -> auto& { return r.largest; });
   visit(
       "tangential_before", "Pa", [](auto& r) -> auto& { return r.tangential; });
@@ -206,25 +208,6 @@ inline constexpr auto patch_columns = [](auto&& visit) {
       "normal_gap", "m", [](auto& r) -> auto& { return r.gap.normal; });
   visit(
       "tangential_gap", "m", [](auto& r) -> auto& { return r.gap.tangential; });
-};
-
-inline constexpr auto slip_columns = [](auto&& visit) {
-  visit(
-      "crack", "", [](auto& r) -> auto& { return r.segment.crack; });
-  visit(
-      "start_x", "m", [](auto& r) -> auto& { return r.segment.ax; });
-  visit(
-      "start_y", "m", [](auto& r) -> auto& { return r.segment.ay; });
-  visit(
-      "end_x", "m", [](auto& r) -> auto& { return r.segment.bx; });
-  visit(
-      "end_y", "m", [](auto& r) -> auto& { return r.segment.by; });
-  visit(
-      "from", "", [](auto& r) -> auto& { return r.from; });
-  visit(
-      "to", "", [](auto& r) -> auto& { return r.to; });
-  visit(
-      "slip", "m", [](auto& r) -> auto& { return r.slip; });
 };
 
 }  // namespace cdca

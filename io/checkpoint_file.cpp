@@ -136,7 +136,6 @@ StoredCheckpoint read_tables(const Hdf5Input& file) {
   c.cracks = read_cracks(file);
   c.events = read_table<Event>(file, "events", event_columns);
   c.patches = read_table<ContactPatch>(file, "contact", patch_columns);
-  c.slips = read_table<ContactSpots::Slip>(file, "slip", slip_columns);
   return stored;
 }
 
@@ -165,7 +164,6 @@ void write_checkpoint(const fs::path& path, const Checkpoint& c, const Checkpoin
     put_cracks(file, c.cracks);
     put_table(file, "events", c.events, event_columns);
     put_table(file, "contact", c.patches, patch_columns);
-    put_table(file, "slip", c.slips, slip_columns);
     put_cells(file, c.cells);
     file.close();
   } catch (const IoError&) {

@@ -20,9 +20,11 @@ std::vector<PartStiffness> FinestElements::parts(GridIndex element) {
     parts.push_back(cache_.of(context_, element, part, elastic_));
   }
   if (springs_) {
-    for (const CrackFace& face : context_.cuts.faces_of(element)) {
-      const auto stretches = springs_->on(face);
-      if (!stretches.empty()) parts.push_back(face_stiffness(context_, face, elastic_, stretches));
+    const auto faces = context_.cuts.faces_of(element);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const auto stretches = springs_->on(element, k);
+      if (!stretches.empty())
+        parts.push_back(face_stiffness(context_, faces[k], elastic_, stretches));
     }
   }
   return parts;

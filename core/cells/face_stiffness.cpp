@@ -18,6 +18,15 @@ double area_of(const ElementCuts& cuts, GridIndex element, int part) {
   return area;
 }
 
+/// Of all faces inside the element that bound the part, m.
+double face_length_at(const CutElement& cut, int part, const Vec2& h) {
+  double length = 0.0;
+  for (const InnerFace& f : cut.faces) {
+    if (f.plus == part || f.minus == part) length += (f.to - f.from).cwiseProduct(h).norm();
+  }
+  return length;
+}
+
 /// Parts of an element whose compliance is S.
 constexpr double with_stress = 1.0 / 5, without_stress = 1.0 / 100, near_tips = 1.0 / 10;
 
@@ -34,7 +43,12 @@ FaceGeometry::FaceGeometry(const ElementCuts& cuts, const CrackFace& face,
   const double plus = area_of(cuts, face.plus_element, face.plus_part);
   const double minus = area_of(cuts, face.minus_element, face.minus_part);
   plus_share = plus / (plus + minus);
-  depth = std::min(h.minCoeff(), (plus + minus) * h.prod() / std::max(length, 1e-9 * h.minCoeff()));
+  // all faces of a part share its stiffness
+  double shared = length;
+  if (const CutElement* cut = cuts.find(face.plus_element); cut && uses_stress)
+    shared = std::max({length, face_length_at(*cut, face.plus_part, h),
+                       face_length_at(*cut, face.minus_part, h)});
+  depth = std::min(h.minCoeff(), (plus + minus) * h.prod() / std::max(shared, 1e-9 * h.minCoeff()));
   compliance = depth * (uses_stress ? with_stress : without_stress) / elastic(0, 0);
 }
 
@@ -88,16 +102,15 @@ void add_springs(const FaceSpot& spot, const FaceGeometry& face, const FaceStret
   }
 }
 
-std::vector<std::vector<FacePoint>> plain_spots(const CrackFace& face, const FaceGeometry& geometry,
-                                                double from, double to) {
-  const double share = to - from, length = share * geometry.length, middle = 0.5 * (from + to);
-  if (!geometry.uses_stress)
-    return {{{face.from, (1 - middle) * length}}, {{face.to, middle * length}}};
+std::vector<FacePoint> plain_points(const CrackFace& face, const FaceGeometry& geometry,
+                                    double from, double to) {
+  const double share = to - from, length = share * geometry.length;
+  if (!geometry.uses_stress) return {{from + to < 1 ? face.from : face.to, length}};
   const double root = 0.5 / std::sqrt(3.0);
   const auto point = [&](double s) {
     return FacePoint{face.from + (from + s * share) * (face.to - face.from), 0.5 * length};
   };
-  return {{point(0.5 - root), point(0.5 + root)}};
+  return {point(0.5 - root), point(0.5 + root)};
 }
 
 FaceBasis::FaceBasis(const BasisContext& c, const CrackFace& face, const ElasticMatrix& elastic)
@@ -120,15 +133,15 @@ std::vector<SingularPlace> FaceBasis::tip_places() const {
   return places;
 }
 
-std::vector<std::vector<FacePoint>> FaceBasis::points(
-    double from, double to, const std::vector<SingularPlace>& tips) const {
-  if (tips.empty() || !geometry_.uses_stress) return plain_spots(face_, geometry_, from, to);
+std::vector<FacePoint> FaceBasis::points(double from, double to,
+                                         const std::vector<SingularPlace>& tips) const {
+  if (tips.empty() || !geometry_.uses_stress) return plain_points(face_, geometry_, from, to);
   const Vec2 a = face_.from + from * (face_.to - face_.from) - plus_corner_;
   const Vec2 b = face_.from + to * (face_.to - face_.from) - plus_corner_;
   std::vector<FacePoint> graded;
   for (const QuadraturePoint& q : line_quadrature(a, b, tips))
     graded.push_back({plus_corner_ + q.at, q.weight * (to - from) * geometry_.length});
-  return {graded};
+  return graded;
 }
 
 double FaceBasis::compliance_at(const Vec2& at, const std::vector<SingularPlace>& tips) const {
@@ -139,21 +152,18 @@ double FaceBasis::compliance_at(const Vec2& at, const std::vector<SingularPlace>
   return geometry_.compliance * near_tips * std::min(1.0, r / geometry_.depth);
 }
 
-std::vector<FaceSpot> FaceBasis::spots(double from, double to) const {
+FaceSpot FaceBasis::spot(double from, double to) const {
   const auto tips = tip_places();
-  std::vector<FaceSpot> found;
-  for (const auto& points : points(from, to, tips)) {
-    FaceSpot spot;
-    for (const FacePoint& p : points) spot.weight += p.weight;
-    if (!(spot.weight > 0.0)) continue;
-    for (const FacePoint& p : points) {
-      const double share = p.weight / spot.weight;
-      spot.compliance += share * compliance_at(p.at, tips);
-      add_functions(p, share, spot);
-    }
-    found.push_back(std::move(spot));
+  const auto places = points(from, to, tips);
+  FaceSpot spot;
+  for (const FacePoint& p : places) spot.weight += p.weight;
+  for (const FacePoint& p : places) {
+    // a face round a sliver may stand for no length at all
+    const double share = spot.weight > 0.0 ? p.weight / spot.weight : 1.0 / double(places.size());
+    spot.compliance += share * compliance_at(p.at, tips);
+    add_functions(p, share, spot);
   }
-  return found;
+  return spot;
 }
 
 void FaceBasis::add_functions(const FacePoint& point, double share, FaceSpot& spot) const {
@@ -182,15 +192,14 @@ PartStiffness face_stiffness(const BasisContext& context, const CrackFace& face,
   const FaceBasis basis(context, face, elastic);
   PartStiffness stiffness;
   for (const FaceStretch& s : springs) {
-    for (const FaceSpot& spot : basis.spots(s.from, s.to)) {
-      if (stiffness.unknowns.empty()) {
-        for (const FaceFunction& f : spot.functions)
-          stiffness.unknowns.insert(stiffness.unknowns.end(), {f.unknown, f.unknown + 1});
-        const auto size = Eigen::Index(2 * spot.functions.size());
-        stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
-      }
-      add_springs(spot, basis.geometry(), s, stiffness.matrix);
+    const FaceSpot spot = basis.spot(s.from, s.to);
+    if (stiffness.unknowns.empty()) {
+      for (const FaceFunction& f : spot.functions)
+        stiffness.unknowns.insert(stiffness.unknowns.end(), {f.unknown, f.unknown + 1});
+      const auto size = Eigen::Index(2 * spot.functions.size());
+      stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
     }
+    add_springs(spot, basis.geometry(), s, stiffness.matrix);
   }
   return stiffness;
 }

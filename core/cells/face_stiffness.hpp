@@ -21,8 +21,9 @@ struct FaceStretch {
 class FaceSprings {
  public:
   virtual ~FaceSprings() = default;
-  /// Stretches with their springs, which may be 0; none for faces that never touch.
-  virtual std::vector<FaceStretch> on(const CrackFace& face) const = 0;
+  /// Of a face as ElementCuts::faces_of() lists it: stretches with their springs, which may be 0;
+  /// none for faces that never touch.
+  virtual std::vector<FaceStretch> on(GridIndex element, std::size_t face) const = 0;
 };
 
 /// A face in metres, and how its springs are put to work.
@@ -101,10 +102,10 @@ struct FacePoint {
   double weight = 0.0;
 };
 
-/// The points whose mean a spot is: one spot with two points, exact for jumps of bilinear
-/// functions, or on a grid line one for each end of the face.
-std::vector<std::vector<FacePoint>> plain_spots(const CrackFace& face, const FaceGeometry& geometry,
-                                                double from, double to);
+/// The points whose mean a spot is: two, exact for jumps of bilinear functions, or on a grid line
+/// the nearer end of the face.
+std::vector<FacePoint> plain_points(const CrackFace& face, const FaceGeometry& geometry,
+                                    double from, double to);
 
 /// All functions on both sides of one face.
 class FaceBasis {
@@ -114,11 +115,11 @@ class FaceBasis {
   const FaceGeometry& geometry() const { return geometry_; }
   /// On a stretch of the face; near tips the means are over points graded towards them. An unknown
   /// on both sides is one function; all spots have the same functions in the same order.
-  std::vector<FaceSpot> spots(double from, double to) const;
+  FaceSpot spot(double from, double to) const;
 
  private:
-  std::vector<std::vector<FacePoint>> points(double from, double to,
-                                             const std::vector<SingularPlace>& tips) const;
+  std::vector<FacePoint> points(double from, double to,
+                                const std::vector<SingularPlace>& tips) const;
   std::vector<SingularPlace> tip_places() const;
   void add_functions(const FacePoint& point, double share, FaceSpot& spot) const;
   /// S shrinks with the distance from the tips.

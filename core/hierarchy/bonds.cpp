@@ -37,19 +37,21 @@ std::vector<Bond> finest_bonds(const ElementCuts& cuts, const ElasticMatrix& ela
   const StructuredGrid& grid = cuts.grid();
   std::vector<Bond> bonds;
   for (const GlobalId id : cuts.touched_elements()) {
-    for (const CrackFace& face : cuts.faces_of(grid.element_index(id))) {
+    const GridIndex e = grid.element_index(id);
+    const auto faces = cuts.faces_of(e);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const CrackFace& face = faces[k];
       if (face.plus_element == face.minus_element && face.plus_part == face.minus_part) continue;
-      const auto stretches = springs.on(face);
+      const auto stretches = springs.on(e, k);
       if (stretches.empty()) continue;
       const FaceGeometry geometry(cuts, face, elastic);
       Bond bond{face.plus_element, face.minus_element, face.plus_part, face.minus_part};
       for (const FaceStretch& s : stretches) {
-        for (const auto& points : plain_spots(face, geometry, s.from, s.to)) {
-          const FaceSpot spot = spot_of(bond, points, grid.element_size(), geometry, elastic);
-          Eigen::MatrixXd at_spot = Eigen::MatrixXd::Zero(16, 16);
-          if (spot.weight > 0.0) add_springs(spot, geometry, s, at_spot);
-          bond.stiffness += at_spot;
-        }
+        const FaceSpot spot = spot_of(bond, plain_points(face, geometry, s.from, s.to),
+                                      grid.element_size(), geometry, elastic);
+        Eigen::MatrixXd at_spot = Eigen::MatrixXd::Zero(16, 16);
+        if (spot.weight > 0.0) add_springs(spot, geometry, s, at_spot);
+        bond.stiffness += at_spot;
       }
       bonds.push_back(bond);
     }

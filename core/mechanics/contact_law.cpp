@@ -34,7 +34,7 @@ ContactAnswer opened(const ContactSpec& s, double largest, double g) {
 }  // namespace
 
 ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactAnswer& before,
-                             const ContactGap& gap) {
+                             const ContactGap& gap, double pressure) {
   if (s.law == ContactLaw::none || gap.normal > 0.0) return opened(s, largest, gap.normal);
   ContactAnswer a;
   a.largest = largest;
@@ -43,7 +43,7 @@ ContactAnswer contact_answer(const ContactSpec& s, double largest, const Contact
   a.state = ContactState::slip;
   if (s.law == ContactLaw::frictionless || s.tangential_stiffness <= 0.0) return a;
   const double trial = s.tangential_stiffness * gap.tangential;
-  const double limit = s.friction * std::abs(a.normal) + s.cohesion;
+  const double limit = s.friction * pressure + s.cohesion;
   const bool turns = before.slides() && trial * before.tangential < 0.0;
   if (turns || std::abs(trial) <= limit) {
     a.state = ContactState::stick;
@@ -56,7 +56,7 @@ ContactAnswer contact_answer(const ContactSpec& s, double largest, const Contact
 }
 
 ContactAnswer touching(const ContactSpec& s) {
-  return s.law == ContactLaw::none ? ContactAnswer() : contact_answer(s, 0.0, {}, {});
+  return s.law == ContactLaw::none ? ContactAnswer() : contact_answer(s, 0.0, {}, {}, 0.0);
 }
 
 }  // namespace cdca

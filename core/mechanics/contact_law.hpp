@@ -49,8 +49,9 @@ struct ContactAnswer {
 /// Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C over a hundredth of
 /// g_C, softens as Eq. 12 says, and goes back to the origin on unloading. largest: their largest
 /// opening so far, m.
+/// pressure: that friction feels, Pa.
 ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactAnswer& before,
-                             const ContactGap& gap);
+                             const ContactGap& gap, double pressure);
 
 /// Faces that have not been looked at yet: they touch and stick.
 ContactAnswer touching(const ContactSpec& spec);

@@ -18,43 +18,91 @@ Key key_of(int crack, const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-ContactPatches::ContactPatches(const StructuredGrid& grid, const std::vector<ContactSpec>& laws,
+ContactPatches::ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
                                const std::vector<Crack>& cracks, const ContactPatches* previous)
-    : grid_(grid), laws_(laws) {
-  std::map<Key, const Run*> known;
-  if (previous) {
-    for (const auto& [place, run] : previous->runs_)
-      known[key_of(place.first, run.a, run.b)] = &run;
-  }
+    : laws_(laws), grid_(cuts.grid()) {
   for (std::size_t c = 0; c < cracks.size(); ++c) {
-    if (laws[c].law == ContactLaw::none) continue;
-    for (std::size_t k = 0; k < cracks[c].segments(); ++k) {
-      const Vec2 &a = cracks[c].points[k], &b = cracks[c].points[k + 1];
-      const double length = (b - a).norm();
-      const auto count =
-          std::size_t(std::max(1.0, std::round(0.5 * length / grid.smallest_side())));
-      runs_[{int(c), int(k)}] = {patches_.size(), count, a, b};
-      const auto old = known.find(key_of(int(c), a, b));
-      for (std::size_t p = 0; p < count; ++p) {
-        ContactPatch patch;
-        if (old != known.end()) {
-          patch = previous->patches_[old->second->first + p];
-        } else if (!previous) {
-          patch.now = touching(laws[c]);
-        }
-        patch.crack = int(c);
-        patch.segment = int(k);
-        patch.from = double(p) / double(count);
-        patch.to = double(p + 1) / double(count);
-        patch.length = length / double(count);
-        patches_.push_back(patch);
-      }
+    if (!may_touch(int(c))) continue;
+    for (std::size_t k = 0; k < cracks[c].segments(); ++k)
+      segments_[{int(c), int(k)}] = {cracks[c].points[k], cracks[c].points[k + 1], {}};
+  }
+  if (segments_.empty()) return;
+  for (const GlobalId id : cuts.touched_elements()) {
+    std::vector<std::vector<std::size_t>> of_faces;
+    for (const CrackFace& face : cuts.faces_of(grid_.element_index(id))) {
+      of_faces.emplace_back();
+      if (may_touch(face.crack)) add_face(grid_, face, of_faces.back());
+    }
+    if (!of_faces.empty()) at_.emplace(id, std::move(of_faces));
+  }
+  group_patches(2 * grid_.smallest_side());
+  for (ContactPatch& p : patches_) {
+    if (!previous) p.now = touching(law_of(p));
+  }
+  if (previous) take_over(*previous);
+  find_means();
+}
+
+void ContactPatches::add_face(const StructuredGrid& grid, const CrackFace& face,
+                              std::vector<std::size_t>& own) {
+  Segment& segment = segments_.at({face.crack, face.segment});
+  const bool inside = face.plus_element == face.minus_element;
+  const Vec2 along = (segment.b - segment.a).normalized();
+  const double length =
+      std::abs((face.to - face.from).cwiseProduct(grid.element_size()).dot(along));
+  const auto cut = [&](double s) {
+    return segment.fraction(grid.from_grid(face.from + s * (face.to - face.from)));
+  };
+  for (int half = 0; half < (inside ? 1 : 2); ++half) {
+    const double a = cut(inside ? 0.0 : 0.5 * half), b = cut(inside ? 1.0 : 0.5 * (half + 1));
+    ContactPatch patch;
+    patch.crack = face.crack;
+    patch.segment = face.segment;
+    patch.from = std::min(a, b);
+    patch.to = std::max(a, b);
+    patch.length = inside ? length : 0.5 * length;
+    own.push_back(patches_.size());
+    segment.patches.push_back(patches_.size());
+    patches_.push_back(patch);
+  }
+}
+
+void ContactPatches::group_patches(double size) {
+  for (auto& [place, segment] : segments_) {
+    const auto count = std::max(1.0, std::round((segment.b - segment.a).norm() / size));
+    const std::size_t first = groups_.size();
+    groups_.resize(first + std::size_t(count));
+    for (const std::size_t k : segment.patches) {
+      const double middle = 0.5 * (patches_[k].from + patches_[k].to);
+      patches_[k].group =
+          first + std::size_t(std::clamp(std::floor(middle * count), 0.0, count - 1));
     }
   }
 }
 
-double ContactPatches::fraction(int crack, int segment, const Vec2& x) const {
-  return run_of(crack, segment)->fraction(x);
+void ContactPatches::take_over(const ContactPatches& previous) {
+  std::map<Key, const Segment*> known;
+  for (const auto& [place, segment] : previous.segments_)
+    known[key_of(place.first, segment.a, segment.b)] = &segment;
+  for (auto& [place, segment] : segments_) {
+    const auto old = known.find(key_of(place.first, segment.a, segment.b));
+    if (old == known.end()) continue;
+    for (const std::size_t k : segment.patches) {
+      ContactPatch& p = patches_[k];
+      double sum = 0.0, most = 0.0;
+      for (const std::size_t o : old->second->patches) {
+        const ContactPatch& q = previous.patches_[o];
+        const double shared = std::min(p.to, q.to) - std::max(p.from, q.from);
+        if (shared <= 0.0) continue;
+        sum += shared;
+        p.slip += shared * q.slip;
+        p.largest += shared * q.largest;
+        p.tangential += shared * q.tangential;
+        if (shared > most) most = shared, p.now = q.now, p.gap = q.gap;
+      }
+      if (sum > 0.0) p.slip /= sum, p.largest /= sum, p.tangential /= sum;
+    }
+  }
 }
 
 void ContactPatches::put_back(const std::vector<ContactPatch>& patches) {
@@ -64,47 +112,50 @@ void ContactPatches::put_back(const std::vector<ContactPatch>& patches) {
   if (!std::equal(patches.begin(), patches.end(), patches_.begin(), patches_.end(), same))
     throw IoError("The checkpoint does not fit the case: other faces touch.");
   patches_ = patches;
+  find_means();
 }
 
-const ContactPatches::Run* ContactPatches::run_of(int crack, int segment) const {
-  const auto it = runs_.find({crack, segment});
-  return it == runs_.end() ? nullptr : &it->second;
+std::vector<std::size_t> ContactPatches::of_face(GridIndex element, std::size_t face) const {
+  const auto it = at_.find(grid_.element(element));
+  return it == at_.end() ? std::vector<std::size_t>() : it->second.at(face);
 }
 
-std::vector<ContactPatches::Share> ContactPatches::shares(const CrackFace& face) const {
-  const Run* run = run_of(face.crack, face.segment);
-  if (!run) return {};
-  const double f0 = run->fraction(grid_.from_grid(face.from));
-  const double f1 = run->fraction(grid_.from_grid(face.to));
-  if (std::abs(f1 - f0) < 1e-14) return {};
-  const double low = std::min(f0, f1), high = std::max(f0, f1), count = double(run->count);
-  const auto clamped = [&](double f) {
-    return std::size_t(std::clamp(std::floor(f * count), 0.0, count - 1));
-  };
-  std::vector<Share> found;
-  const std::size_t first = clamped(low + 1e-9), last = clamped(high - 1e-9);
-  for (std::size_t p = first; p <= last; ++p) {
-    const double a = p == first ? low : double(p) / count;
-    const double b = p == last ? high : double(p + 1) / count;
-    const double from = (a - f0) / (f1 - f0), to = (b - f0) / (f1 - f0);
-    found.push_back({run->first + p, std::min(from, to), std::max(from, to)});
-  }
-  return found;
-}
-
-std::vector<FaceStretch> ContactPatches::on(const CrackFace& face) const {
+std::vector<FaceStretch> ContactPatches::on(GridIndex element, std::size_t face) const {
   std::vector<FaceStretch> stretches;
-  for (const Share& s : shares(face)) {
-    const ContactAnswer& now = patches_[s.patch].now;
-    stretches.push_back({s.from, s.to, now.normal_spring, now.tangential_spring});
+  const auto own = of_face(element, face);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const ContactAnswer& now = patches_[own[k]].now;
+    const double share = 1.0 / double(own.size());
+    stretches.push_back(
+        {double(k) * share, double(k + 1) * share, now.normal_spring, now.tangential_spring});
   }
   return stretches;
 }
 
-ContactPatches::Change ContactPatches::respond() {
+std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactGap>& gaps) const {
+  // friction feels the mean pressure of the closed patches of a group
+  std::vector<double> pressure(groups_.size(), 0.0), closed(groups_.size(), 0.0);
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    const ContactPatch& p = patches_[k];
+    if (gaps[k].normal > 0.0) continue;
+    pressure[p.group] -= p.length * law_of(p).normal_stiffness * gaps[k].normal;
+    closed[p.group] += p.length;
+  }
+  std::vector<ContactAnswer> answers;
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    const ContactPatch& p = patches_[k];
+    const double mean = closed[p.group] > 0.0 ? pressure[p.group] / closed[p.group] : 0.0;
+    answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], mean));
+  }
+  return answers;
+}
+
+ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& gaps) {
   Change change;
-  for (ContactPatch& p : patches_) {
-    const ContactAnswer next = contact_answer(law_of(p), p.largest, p.now, p.gap);
+  const auto answers = answers_to(gaps);
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    ContactPatch& p = patches_[k];
+    const ContactAnswer& next = answers[k];
     const double scale = std::max(next.normal_spring, p.now.normal_spring);
     change.springs = change.springs || next.tangential_spring != p.now.tangential_spring ||
                      std::abs(next.normal_spring - p.now.normal_spring) > 1e-9 * scale;
@@ -112,8 +163,27 @@ ContactPatches::Change ContactPatches::respond() {
       change.traction = std::max(change.traction, std::abs(next.tangential - p.now.tangential));
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     p.now = next;
+    p.gap = gaps[k];
   }
+  find_means();
   return change;
+}
+
+void ContactPatches::find_means() {
+  for (ContactGroup& g : groups_) g = {};
+  for (const ContactPatch& p : patches_) {
+    ContactGroup& g = groups_[p.group];
+    g.length += p.length;
+    g.gap += p.length * p.gap.normal;
+    if (p.now.state == ContactState::open) continue;
+    g.closed += p.length;
+    g.normal += p.length * p.now.normal;
+    g.tangential += p.length * p.now.tangential;
+  }
+  for (ContactGroup& g : groups_) {
+    if (g.length > 0.0) g.gap /= g.length;
+    if (g.closed > 0.0) g.normal /= g.closed, g.tangential /= g.closed;
+  }
 }
 
 void ContactPatches::accept() {
@@ -124,18 +194,26 @@ void ContactPatches::accept() {
 }
 
 const ContactPatch* ContactPatches::find(int crack, int segment, const Vec2& x) const {
-  const Run* run = run_of(crack, segment);
-  if (!run) return nullptr;
-  const double place = std::floor(run->fraction(x) * double(run->count));
-  return &patches_[run->first + std::size_t(std::clamp(place, 0.0, double(run->count - 1)))];
+  const auto it = segments_.find({crack, segment});
+  if (it == segments_.end()) return nullptr;
+  const double s = it->second.fraction(x);
+  const ContactPatch* nearest = nullptr;
+  double least = 0.0;
+  for (const std::size_t k : it->second.patches) {
+    const ContactPatch& p = patches_[k];
+    const double off = std::max({p.from - s, s - p.to, 0.0});
+    if (!nearest || off < least) nearest = &p, least = off;
+  }
+  return nearest;
 }
 
 Vec2 ContactPatches::on_plus(int crack, int segment, const Vec2& x) const {
   const ContactPatch* patch = find(crack, segment, x);
   if (!patch || patch->now.state == ContactState::open) return {0, 0};
-  const Run& run = *run_of(crack, segment);
-  const Vec2 t = (run.b - run.a).normalized();
-  return -patch->now.normal * turned_left(t) - patch->now.tangential * t;
+  const Segment& s = segments_.at({crack, segment});
+  const Vec2 t = (s.b - s.a).normalized();
+  const ContactGroup& group = group_of(*patch);
+  return -group.normal * turned_left(t) - group.tangential * t;
 }
 
 }  // namespace cdca

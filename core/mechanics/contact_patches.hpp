@@ -7,44 +7,49 @@
 #include "core/mechanics/contact_law.hpp"
 
 #include <array>
+#include <compare>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace cdca {
 
-/// A stretch of one segment of a crack, about two elements long: over shorter ones the tractions
-/// still show how the crack lies in the elements. Its state follows from the mean gap on it.
+/// The crack within one element, or the half of an element's side that lies on a crack. A patch is
+/// open, sticks or slips as a whole, by its mean gap.
 struct ContactPatch {
   int crack = 0;
   int segment = 0;
   double from = 0.0;  ///< fractions of the segment
   double to = 1.0;
-  double length = 0.0;  ///< m
+  double length = 0.0;    ///< m
+  std::size_t group = 0;  ///< of those whose mean pressure friction feels
   ContactAnswer now;
   ContactGap gap;  ///< that `now` is the answer to
   /// Of the last accepted equilibrium:
+  double slip = 0.0;                  ///< m, that does not come back on unloading; 0 on new faces
   double largest = 0.0;               ///< m, opening so far; cohesive faces
   double tangential = 0.0;            ///< Pa
   std::array<int, 2> bodies{-1, -1};  ///< numbers of the bodies on the plus and the minus side
 };
 
+/// A stretch of one segment, about two elements long: over shorter ones the tractions show how the
+/// crack lies in the elements.
+struct ContactGroup {
+  double length = 0.0;      ///< m
+  double closed = 0.0;      ///< m of it
+  double normal = 0.0;      ///< mean over the closed part, Pa
+  double tangential = 0.0;  ///< the same
+  double gap = 0.0;         ///< mean normal gap of the whole, m
+};
+
 /// All patches, the same on every rank.
 class ContactPatches final : public FaceSprings {
  public:
-  /// The part of a face that lies in one patch, in fractions of the face.
-  struct Share {
-    std::size_t patch;
-    double from, to;
-  };
-
   ContactPatches() = default;
-  /// laws: by crack. Patches of segments that `previous` had keep their state; new segments start
-  /// open where there was a previous one, touching otherwise.
-  ContactPatches(const StructuredGrid& grid, const std::vector<ContactSpec>& laws,
+  /// laws: by crack. Patches of segments that `previous` had take over the state and the history at
+  /// their places; new segments start open where there was a previous one, touching otherwise.
+  ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
                  const std::vector<Crack>& cracks, const ContactPatches* previous);
-
-  /// Takes over history and answers of the same patches. Throws IoError when they are others.
-  void put_back(const std::vector<ContactPatch>& patches);
 
   bool empty() const { return patches_.empty(); }
   const std::vector<ContactPatch>& patches() const { return patches_; }
@@ -52,40 +57,54 @@ class ContactPatches final : public FaceSprings {
   const ContactSpec& law_of(const ContactPatch& patch) const {
     return laws_[std::size_t(patch.crack)];
   }
-  std::vector<FaceStretch> on(const CrackFace& face) const override;
-  std::vector<Share> shares(const CrackFace& face) const;
-  /// Place of a point of a segment along it, from 0 to 1.
-  double fraction(int crack, int segment, const Vec2& x) const;
+  std::vector<FaceStretch> on(GridIndex element, std::size_t face) const override;
+  /// The patches of a face of an element, in order; a side has two.
+  std::vector<std::size_t> of_face(GridIndex element, std::size_t face) const;
+  /// For a restart: patches that were written down. Throws IoError where they do not fit.
+  void put_back(const std::vector<ContactPatch>& patches);
 
+  /// What all patches would answer to such gaps: by patch.
+  std::vector<ContactAnswer> answers_to(const std::vector<ContactGap>& gaps) const;
   /// What has changed in the answers of the patches.
   struct Change {
     bool springs = false;   ///< the stiffness
     double traction = 0.0;  ///< largest change of a given traction, Pa
     double largest = 0.0;   ///< largest traction, Pa
   };
-  /// Gives all patches new answers to their gaps.
-  Change respond();
+  /// Gives all patches new gaps, and the answers to them.
+  Change respond(const std::vector<ContactGap>& gaps);
   /// Takes the openings and tractions of this equilibrium into the history.
   void accept();
 
-  bool touches(const CrackFace& face) const { return run_of(face.crack, face.segment); }
-  /// Traction on the plus face at a place of a segment, Pa, in global axes.
-  Vec2 on_plus(int crack, int segment, const Vec2& x) const;
+  /// Does the law of the crack know of touching?
+  bool may_touch(int crack) const { return laws_[std::size_t(crack)].law != ContactLaw::none; }
+  /// The patch at a place x (m) of a segment; null where there is none.
   const ContactPatch* find(int crack, int segment, const Vec2& x) const;
+  const ContactGroup& group_of(const ContactPatch& patch) const { return groups_[patch.group]; }
+  /// Traction on the plus face at a place of a segment, Pa, in global axes: that of the group.
+  Vec2 on_plus(int crack, int segment, const Vec2& x) const;
 
  private:
-  struct Run {
-    std::size_t first = 0;
-    std::size_t count = 0;
-    Vec2 a{0, 0}, b{0, 0};  ///< ends of the segment, m
+  /// A segment of a crack with the ends that it was made with, m.
+  struct Segment {
+    Vec2 a{0, 0}, b{0, 0};
+    std::vector<std::size_t> patches;
     double fraction(const Vec2& x) const { return (x - a).dot(b - a) / (b - a).squaredNorm(); }
   };
-  const Run* run_of(int crack, int segment) const;
+  using Place = std::pair<int, int>;  ///< crack, segment
 
-  StructuredGrid grid_;
+  void add_face(const StructuredGrid& grid, const CrackFace& face, std::vector<std::size_t>& own);
+  void group_patches(double size);
+  void take_over(const ContactPatches& previous);
+  void find_means();
+
   std::vector<ContactSpec> laws_;
   std::vector<ContactPatch> patches_;
-  std::map<std::pair<int, int>, Run> runs_;
+  std::vector<ContactGroup> groups_;
+  std::map<Place, Segment> segments_;
+  /// By element: the first patch of every face.
+  std::unordered_map<GlobalId, std::vector<std::vector<std::size_t>>> at_;
+  StructuredGrid grid_;
 };
 
 }  // namespace cdca

@@ -199,7 +199,7 @@ class TipIntegral {
     for (const FaceLoad& l : loads_.faces) {
       if (l.crack == face.crack) load = &l;
     }
-    const bool touches = loads_.contact && loads_.contact->touches(face);
+    const bool touches = loads_.contact && loads_.contact->may_touch(face.crack);
     if (straight && !load && !touches) return;
     const StructuredGrid& grid = c_.mesh.grid();
     const GridIndex e = plus ? face.plus_element : face.minus_element;
@@ -284,20 +284,21 @@ class TipIntegral {
   std::vector<BasisFunction> functions_;
 };
 
-/// The patch at a tip, when its faces touch there.
-const ContactPatch* touching_patch(const ExternalLoads& loads, const std::vector<Crack>& cracks,
+/// The group of patches at a tip, when the faces touch at the tip.
+const ContactGroup* touching_group(const ExternalLoads& loads, const std::vector<Crack>& cracks,
                                    const TipZone& zone) {
   if (!loads.contact) return nullptr;
   const Crack& crack = cracks[std::size_t(zone.crack)];
   const int segment = zone.end == 0 ? 0 : int(crack.segments()) - 1;
   const ContactPatch* patch = loads.contact->find(zone.crack, segment, crack.end_point(zone.end));
-  return patch && patch->now.state != ContactState::open ? patch : nullptr;
+  if (!patch || patch->now.state == ContactState::open) return nullptr;
+  return &loads.contact->group_of(*patch);
 }
 
-/// K_I that opens the patch at the tip by its mean gap: g(r) = 8 K_I / E' sqrt(r / 2 pi).
-double fitted_opening(const ContactPatch& patch, const Material& material) {
-  return 3.0 / 16 * patch.gap.normal * material.fracture_modulus() *
-         std::sqrt(2 * std::numbers::pi / patch.length);
+/// K_I that opens the faces at the tip by their mean gap: g(r) = 8 K_I / E' sqrt(r / 2 pi).
+double fitted_opening(const ContactGroup& group, const Material& material) {
+  return 3.0 / 16 * group.gap * material.fracture_modulus() *
+         std::sqrt(2 * std::numbers::pi / group.length);
 }
 
 }  // namespace
@@ -324,8 +325,8 @@ std::vector<StressIntensity> stress_intensities(
   for (std::size_t z = 0; z < found.size(); ++z) {
     found[z].k1 = 0.5 * material.fracture_modulus() * sums[2 * z];
     found[z].k2 = 0.5 * material.fracture_modulus() * sums[2 * z + 1];
-    if (const ContactPatch* patch = touching_patch(loads, cracks, *zones[z])) {
-      found[z].k1 = fitted_opening(*patch, material);
+    if (const ContactGroup* group = touching_group(loads, cracks, *zones[z])) {
+      found[z].k1 = fitted_opening(*group, material);
       found[z].k1_fitted = true;
     }
   }

@@ -11,13 +11,11 @@ Checkpoint take_checkpoint(const Model& model, const EnergyLedger& energy, const
           model.registry().cracks(),
           model.registry().events(),
           model.contact().patches(),
-          model.slips(),
           fields_of_cells(model.basis(), model.state(), energy.forces())};
 }
 
 EnergyLedger put_back(const Checkpoint& checkpoint, Model& model) {
-  model.put_back(CrackRegistry(checkpoint.cracks, checkpoint.events), checkpoint.patches,
-                 checkpoint.slips);
+  model.put_back(CrackRegistry(checkpoint.cracks, checkpoint.events), checkpoint.patches);
   Communicator& ranks = model.communicator();
   std::vector<double> forces(model.state().size(), 0.0);
   put_cells(rows_for_owners(checkpoint.cells, model.mesh(), ranks), model.basis(), ranks,

@@ -35,7 +35,6 @@ struct Checkpoint {
   std::vector<Crack> cracks;
   std::vector<Event> events;
   std::vector<ContactPatch> patches;
-  std::vector<ContactSpots::Slip> slips;
   CellFields cells;
 };
 

@@ -147,9 +147,11 @@ CrackPart draw_cracks(const Model& model) {
       part.age.push_back(crack.age[std::size_t(face.segment)]);
       const Vec2 middle = model.grid().from_grid(0.5 * (face.from + face.to));
       const ContactPatch* patch = model.contact().find(face.crack, face.segment, middle);
+      const bool closed = patch && patch->now.state != ContactState::open;
       part.contact_state.push_back(patch ? int(patch->now.state) : 0);
-      part.normal_traction.push_back(patch ? patch->now.normal : 0.0);
-      part.tangential_traction.push_back(patch ? patch->now.tangential : 0.0);
+      part.normal_traction.push_back(closed ? model.contact().group_of(*patch).normal : 0.0);
+      part.tangential_traction.push_back(closed ? model.contact().group_of(*patch).tangential
+                                                : 0.0);
     }
   }
   return part;

@@ -74,22 +74,111 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   return report;
 }
 
+/// How far to go from one state towards the next, which was found with springs that may be the
+/// wrong ones: to where the forces on the way are in balance, so that faces cannot be thrown open
+/// and shut for ever.
+class LineSearch {
+ public:
+  LineSearch(const Model& model, const std::vector<double>& external,
+             const std::vector<double>& from)
+      : model_(model), move_(model.state()) {
+    for (std::size_t k = 0; k < move_.size(); ++k) move_[k] -= from[k];
+    const CellStiffness& cells = model.stiffness();
+    std::vector<double> product(move_.size(), 0.0);
+    cells.apply(from, product);
+    for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];
+    driving_ = cells.dot(product, move_);
+    cells.apply(move_, product);
+    stiffness_ = cells.dot(product, move_);
+    at_ = model.contact_spots().fields(from);
+    moves_ = model.contact_spots().fields(move_);
+    gaps_ = gaps_of(from);
+    gaps_there_ = gaps_of(model.state());
+    // the rest of the body, without the faces
+    const auto& spots = model.contact_spots();
+    driving_ += model.communicator().sum(spots.spring_work(model.contact(), at_, moves_));
+    stiffness_ -= model.communicator().sum(spots.spring_work(model.contact(), moves_, moves_));
+  }
+
+  /// Share of the move, from 0 to 1.
+  double find() const {
+    const double start = work(0.0), end = work(1.0);
+    if (!(start > 0.0) || end >= -accepted * start) return 1.0;
+    double low = 0.0, high = 1.0, at_low = start, at_high = end;
+    for (int k = 0; k < 20; ++k) {
+      const double share = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.1, 0.9);
+      const double now = work(share);
+      if (std::abs(now) <= 0.1 * start) return share;
+      (now > 0.0 ? low : high) = share;
+      (now > 0.0 ? at_low : at_high) = now;
+    }
+    return high;
+  }
+
+  const std::vector<double>& move() const { return move_; }
+  std::vector<ContactGap> gaps(double share) const {
+    std::vector<ContactGap> found;
+    for (std::size_t p = 0; p < gaps_.size(); ++p) {
+      const auto between = [share](double a, double b) { return a + share * (b - a); };
+      found.push_back({between(gaps_[p].normal, gaps_there_[p].normal),
+                       between(gaps_[p].tangential, gaps_there_[p].tangential)});
+    }
+    return found;
+  }
+
+ private:
+  static constexpr double accepted = 0.5;  ///< overshoot, of the work at the start
+
+  std::vector<ContactGap> gaps_of(const std::vector<double>& state) const {
+    return model_.contact_spots().gaps(state, model_.contact(), model_.communicator());
+  }
+  /// Of all forces on the move, where this share of it is done.
+  double work(double share) const {
+    const auto answers = model_.contact().answers_to(gaps(share));
+    return driving_ - share * stiffness_ -
+           model_.communicator().sum(
+               model_.contact_spots().work(model_.contact(), answers, at_, moves_, share));
+  }
+
+  const Model& model_;
+  std::vector<double> move_;
+  double driving_ = 0.0;    ///< work of loads and body on the move, at its start
+  double stiffness_ = 0.0;  ///< of the body along the move
+  ContactSpots::Fields at_, moves_;
+  std::vector<ContactGap> gaps_, gaps_there_;
+};
+
+void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
+  model.stiffness().clear_held(state);
+  for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
+  model.stiffness().halo().copy_state(state);
+}
+
 /// Steps 5-7 of 2.4.3: solves until no patch changes its state and the tractions settle.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
   constexpr int most = 60;
   SolverReport worst;
+  set_held(model, given.held, model.state());
   for (result.contact_iterations = 1; result.contact_iterations <= most;
        ++result.contact_iterations) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
     model.add_contact_forces(given.faces);
+    const std::vector<double> from = model.state();
     const SolverReport report = solve_once(model, solver, load_factor, given);
     worst.iterations = std::max(worst.iterations, report.iterations);
     worst.residual = report.residual;
     worst.converged = true;
-    const ContactPatches::Change change = model.respond_to_gaps();
+    const LineSearch search(model, given.external, from);
+    const double share = search.find();
+    if (share < 1.0) {
+      for (std::size_t k = 0; k < from.size(); ++k)
+        model.state()[k] = from[k] + share * search.move()[k];
+    }
+    const ContactPatches::Change change = model.contact().respond(search.gaps(share));
     const double tolerance = 10 * model.spec().solver.tolerance;
-    if (!change.springs && change.traction <= tolerance * change.largest) return worst;
+    if (share == 1.0 && !change.springs && change.traction <= tolerance * change.largest)
+      return worst;
     if (change.springs) model.build_stiffness();
   }
   std::ostringstream text;

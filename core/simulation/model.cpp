@@ -30,7 +30,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_, partition_cells(grid_, weights, communicator_, partitioner),
                     communicator_.rank());
-  build_cells(spots_.slips());
+  build_cells();
   refuse_loose_bodies();
 }
 
@@ -42,7 +42,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
-  build_cells(spots_.slips());
+  build_cells();
   refuse_loose_bodies();
 }
 
@@ -52,7 +52,7 @@ void Model::place_cracks() {
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_));
   refuse_hidden_cracks();
   find_zones();
-  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
+  contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), nullptr);
 }
 
 void Model::find_zones() {
@@ -71,11 +71,11 @@ std::vector<ContactSpec> Model::contact_laws() const {
   return laws;
 }
 
-void Model::build_cells(const ContactSpots::Slips& slips) {
+void Model::build_cells() {
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
   supports_ = Supports(basis(), spec_.boundaries);
   state_.assign(std::size_t(unknowns_.count()), 0.0);
-  spots_ = ContactSpots(basis(), registry_.cracks(), contact_, material_.elastic_matrix(), slips);
+  spots_ = ContactSpots(basis(), contact_, material_.elastic_matrix());
   find_bodies();
 }
 
@@ -122,11 +122,6 @@ std::vector<char> Model::held_bodies(bool touching_only) const {
   return held;
 }
 
-ContactPatches::Change Model::respond_to_gaps() {
-  spots_.measure(state_, contact_, communicator_);
-  return contact_.respond();
-}
-
 void Model::add_contact_forces(std::span<double> forces) const {
   spots_.add_forces(contact_, unknowns_.owned(), forces);
 }
@@ -164,9 +159,9 @@ void Model::lay_cracks(CrackRegistry registry) {
   const std::vector<double> old_state = std::move(state_);
   registry_ = std::move(registry);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
-  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), &contact_);
+  contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), &contact_);
   find_zones();
-  build_cells(spots_.slips());
+  build_cells();
   close_new_faces();
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
   build_stiffness();
@@ -193,14 +188,13 @@ std::vector<std::size_t> Model::bodies_at(const std::vector<Vec2>& places) const
   return {found.begin(), found.end()};
 }
 
-void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches,
-                     const std::vector<ContactSpots::Slip>& slips) {
+void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches) {
   registry_ = std::move(registry);
-  contact_ = ContactPatches(grid_, contact_laws(), registry_.cracks(), nullptr);
-  contact_.put_back(patches);
   cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
+  contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), nullptr);
+  contact_.put_back(patches);
   find_zones();
-  build_cells(ContactSpots::by_segment(slips));
+  build_cells();
   build_stiffness();
 }
 

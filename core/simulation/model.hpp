@@ -37,8 +37,7 @@ class Model {
 
   /// As lay_cracks() with cracks and contact of a run that goes on; the displacements are left at
   /// 0. Throws IoError when the patches are not those of the cracks. Collective.
-  void put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches,
-                const std::vector<ContactSpots::Slip>& slips);
+  void put_back(CrackRegistry registry, const std::vector<ContactPatch>& patches);
   /// States and slip of all faces, to go back to after a trial; lay_cracks() takes them up.
   struct ContactMemory {
     ContactPatches patches;
@@ -49,8 +48,6 @@ class Model {
     contact_ = memory.patches;
     spots_ = memory.spots;
   }
-  /// What all faces have slipped. Collective.
-  std::vector<ContactSpots::Slip> slips() const { return spots_.all_slips(communicator_); }
 
   /// Takes over a registry that differs from the model's by its events only.
   void replace_events(CrackRegistry registry) { registry_ = std::move(registry); }
@@ -73,8 +70,8 @@ class Model {
   const Material& material() const { return material_; }
   const Supports& supports() const { return supports_; }
   const ContactPatches& contact() const { return contact_; }
-  /// Looks at the gaps of the state, which gives the patches new answers. Collective.
-  ContactPatches::Change respond_to_gaps();
+  ContactPatches& contact() { return contact_; }
+  const ContactSpots& contact_spots() const { return spots_; }
   /// Adds what touching faces exert besides their springs, N per metre of thickness on own cells.
   void add_contact_forces(std::span<double> forces) const;
   /// Stored in the springs of faces less what u K u / 2 counts, J per metre. Collective.
@@ -109,7 +106,7 @@ class Model {
   void find_zones();
   /// Faces of bodies that nothing else holds touch until an equilibrium shows that they do not.
   void close_new_faces();
-  void build_cells(const ContactSpots::Slips& slips);
+  void build_cells();
   void find_bodies();
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;

@@ -225,13 +225,12 @@ TEST(RestartParallel, RemembersSlip) {
       EXPECT_NEAR(a[p].now.normal, b[p].now.normal, tolerance);
       EXPECT_NEAR(a[p].now.tangential, b[p].now.tangential, tolerance);
     }
-    const auto slips = model->slips(), slips_again = again.slips();
-    ASSERT_EQ(slips.size(), slips_again.size());
     double largest = 0.0;
-    for (const auto& s : slips) largest = std::max(largest, std::abs(s.slip));
+    for (std::size_t p = 0; p < a.size(); ++p) {
+      largest = std::max(largest, std::abs(a[p].slip));
+      EXPECT_NEAR(a[p].slip, b[p].slip, std::max(tolerance, 1e-14) * 1e-3);
+    }
     EXPECT_GT(largest, 1e-4);
-    for (std::size_t k = 0; k < slips.size(); ++k)
-      EXPECT_NEAR(slips[k].slip, slips_again[k].slip, std::max(tolerance, 1e-14) * largest);
   };
   expect_same_patches(0.0);
   settle(*model, 1.1);
