@@ -3,6 +3,8 @@
 # Installs the Debian packages that the project needs and that are missing: as root, or through sudo
 # where that works without a password; otherwise prints the one line to ask an administrator for.
 # Removes nothing. CDCA_SETUP=skip leaves the machine as it is.
+#
+# usage: setup.sh [PACKAGE...]   more packages that are wanted
 set -euo pipefail
 
 if [[ ${CDCA_SETUP:-} == skip ]]; then
@@ -28,6 +30,7 @@ packages=(
   libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   python3-matplotlib python3-numpy python3-h5py        # pictures
   libgtest-dev libbenchmark-dev clang-format-14        # tests
+  "$@"
 )
 
 # VTK comes with ParaView, or alone. The Python sides of the two exclude each other: keep what is there.
