@@ -158,9 +158,11 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
   const CrackRegistry registry = model.registry();
   const bool joined = model.joins_loaded_boundaries();
   const Model::ContactMemory memory = model.contact_memory();
+  const std::vector<double> state = model.state();
   const auto back = [&] {
     model.remember(memory);
     model.lay_cracks(registry);
+    model.state() = state;
   };
   for (int trial = 0; trial < most_trials; ++trial) {
     CrackRegistry ahead = registry;

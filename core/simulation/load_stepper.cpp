@@ -2,6 +2,7 @@
 #include "core/simulation/load_stepper.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/simulation/critical_factor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -151,36 +152,26 @@ CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
   return found;
 }
 
-/// Secants from the last factor: faces that touch and slip make the index a broken line. Where
-/// friction holds the faces when the load goes down, unloading does not stop a tip: it grows under
-/// the load that is there, with an index above 1.
+/// last: factor of the last growth, or 0. Every trial begins from the faces as they are.
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, Recorder& recorder,
-                                   double guess) {
-  constexpr int most = 25;
+                                   double last) {
+  constexpr int most = 50;
   const Model::ContactMemory memory = model.contact_memory();
+  CriticalFactor search(last);
   CriticalState found;
-  const double start = guess;
-  double before = 0.0, index_before = 0.0;  // no load, no index
-  bool locked = false;
   for (int round = 0; round < most; ++round) {
     if (round > 0) {
       model.remember(memory);
       model.build_stiffness();
     }
-    found.factor = guess;
-    found.equilibrium = solve(model, solver, guess, recorder);
-    found.tips = criterion.assess(model, guess);
-    const double u = greatest_index(found.tips);
-    found.grows = u > 0.0;
-    if (locked || !found.grows || std::abs(u - 1.0) < 0.5 * equal_index) return found;
-    const double slope = (u - index_before) / (guess - before);
-    locked = round > 0 && guess < start && u > 1.0 && slope < 0.3 * u / guess;
-    double next = guess + (1.0 - u) * (guess - before) / (u - index_before);
-    if (!(next > 0.0) || !std::isfinite(next)) next = guess / u;
-    before = guess;
-    index_before = u;
-    guess = locked ? start : std::clamp(next, 0.1 * guess, 10 * guess);
+    found.factor = search.next();
+    found.equilibrium = solve(model, solver, found.factor, recorder);
+    found.tips = criterion.assess(model, found.factor);
+    search.tell(greatest_index(found.tips));
+    if (!search.ended()) continue;
+    found.grows = search.grows();
+    return found;
   }
   throw ContactError(
       "the load factor at which the next tip grows was not found; the states of "
@@ -260,8 +251,7 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
     CriticalState now;
     if (!separated) {
       now = linear ? scaled_to_critical(model, *solver, criterion, recorder)
-                   : searched_to_critical(model, *solver, criterion, recorder,
-                                          at.load_factor > 0.0 ? at.load_factor : 1.0);
+                   : searched_to_critical(model, *solver, criterion, recorder, at.load_factor);
       separated = at.joined && !model.joins_loaded_boundaries();
     }
     note_fragments(model, event, 0);
@@ -274,7 +264,7 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
       return;
     }
     if (!now.grows)
-      recorder.set_status("completed", "no tip is opened by the loads: nothing grows.");
+      recorder.set_status("completed", "no load of this kind opens a tip: nothing grows any more.");
     const double factor = now.factor;
     if (now.grows) largest = std::max(largest, factor);
     StepResult result{event, factor, 1, false};

@@ -97,7 +97,7 @@ std::size_t Model::body_of(GridIndex e, int part) const {
 }
 
 void Model::close_new_faces() {
-  const auto held = held_bodies(true);
+  const auto held = held_bodies(Holding::touching);
   for (ContactPatch& p : contact_.patches()) {
     const auto [a, b] = p.bodies;
     if (a < 0 || b < 0 || a == b || p.now.state != ContactState::open) continue;
@@ -106,13 +106,14 @@ void Model::close_new_faces() {
   }
 }
 
-std::vector<char> Model::held_bodies(bool touching_only) const {
+std::vector<char> Model::held_bodies(Holding faces) const {
   std::vector<char> held;
   for (const Body& body : bodies_->list()) held.push_back(body.held);
   for (bool found = true; found;) {
     found = false;
     for (const ContactPatch& p : contact_.patches()) {
-      if (touching_only && p.now.state == ContactState::open) continue;
+      if (faces != Holding::all && p.now.state == ContactState::open) continue;
+      if (faces == Holding::sticking && p.now.slides()) continue;
       const auto [a, b] = p.bodies;
       if (a < 0 || b < 0 || held[std::size_t(a)] == held[std::size_t(b)]) continue;
       held[std::size_t(a)] = held[std::size_t(b)] = 1;
@@ -168,7 +169,7 @@ void Model::lay_cracks(CrackRegistry registry) {
 }
 
 std::vector<std::size_t> Model::loose_bodies() const {
-  const auto held = held_bodies(true);
+  const auto held = held_bodies(Holding::touching);
   std::vector<std::size_t> loose;
   for (std::size_t k = 0; k < held.size(); ++k) {
     if (!held[k]) loose.push_back(k);
@@ -200,7 +201,7 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
 
 std::vector<double> Model::springs() const {
   constexpr double weak = 1e-6;  // of the unknown's own stiffness
-  const auto held = held_bodies(true);
+  const auto held = held_bodies(Holding::sticking);
   if (std::find(held.begin(), held.end(), 0) == held.end()) return {};
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
@@ -214,7 +215,7 @@ std::vector<double> Model::springs() const {
 }
 
 bool Model::joins_loaded_boundaries() const {
-  const auto held = held_bodies(true);
+  const auto held = held_bodies(Holding::touching);
   const auto& bodies = bodies_->list();
   std::vector<std::uint64_t> marks;
   for (const Body& body : bodies) marks.push_back(body.marks);
@@ -260,7 +261,7 @@ void Model::refuse_hidden_cracks() const {
 void Model::refuse_loose_bodies() const {
   std::vector<Problem> problems;
   const auto& bodies = bodies_->list();
-  const auto held = held_bodies(false);
+  const auto held = held_bodies(Holding::all);
   for (const Body& body : bodies) {
     if (held[std::size_t(&body - bodies.data())]) continue;
     std::ostringstream text;

@@ -110,9 +110,12 @@ class Model {
   void find_bodies();
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;
-  /// Whether each body is held: by supports, or by faces (touching ones, or all) of bodies that
-  /// are.
-  std::vector<char> held_bodies(bool touching_only) const;
+  /// Faces that count as holding one body to another.
+  enum class Holding { all, touching, sticking };
+  /// Whether each body is held: by supports, or by faces of bodies that are.
+  std::vector<char> held_bodies(Holding faces) const;
+  /// Weak springs for bodies that could move without straining anything: those that at most touch
+  /// and slide.
   std::vector<double> springs() const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/critical_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdca {
+
+namespace {
+
+constexpr double exact = 5e-7;    ///< of the index
+constexpr double narrow = 1e-6;   ///< of the factor: the index jumps there
+constexpr double held = 0.3;      ///< less than this part of a proportional slope: faces are held
+constexpr double highest = 10.0;  ///< of the last factor
+
+}  // namespace
+
+CriticalFactor::CriticalFactor(double last)
+    : start_(last > 0.0 ? last : 1.0), virgin_(!(last > 0.0)), next_(start_) {}
+
+void CriticalFactor::end(bool grows) {
+  ended_ = true;
+  grows_ = grows;
+}
+
+void CriticalFactor::end_at(double factor, bool grows) {
+  next_ = factor;
+  last_trial_ = true;
+  grows_ = grows;
+}
+
+void CriticalFactor::tell(double index) {
+  const Trial now{next_, index};
+  ++tried_;
+  if (last_trial_) return end(grows_);
+  if (std::abs(index - 1.0) < exact) return end(true);
+  if (tried_ == 1 && !(index > 0.0)) return end(false);
+  (index < 1.0 ? short_of_ : beyond_) = now;
+  if (short_of_ && beyond_) {
+    const double width = std::abs(beyond_->factor - short_of_->factor);
+    if (width > narrow * now.factor) {
+      next_ = between();
+    } else {
+      end_at(beyond_->factor, true);
+    }
+  } else if (index < 1.0) {
+    const bool enough = !virgin_ && now.factor >= highest * start_;
+    enough ? end_at(start_, false) : void(next_ = higher(now));
+  } else {
+    const double slope = (index - before_.index) / (now.factor - before_.factor);
+    const bool stays = !virgin_ && tried_ > 1 && slope < held * index / now.factor;
+    stays ? end_at(start_, true) : void(next_ = lower(now));
+  }
+  before_ = now;
+}
+
+double CriticalFactor::higher(const Trial& now) const {
+  const double slope = (now.index - before_.index) / (now.factor - before_.factor);
+  const double step = now.factor - before_.factor;
+  if (slope > 0.0) {
+    const double most = tried_ == 1 ? 9 * now.factor : std::max(4 * step, 0.02 * now.factor);
+    return now.factor + std::min((1.0 - now.index) / slope, most);
+  }
+  return now.factor + std::max(2 * step, 0.02 * now.factor);
+}
+
+double CriticalFactor::lower(const Trial& now) const {
+  const double slope = (now.index - before_.index) / (now.factor - before_.factor);
+  const double step = slope > 0.0 ? (now.index - 1.0) / slope : now.factor;
+  return now.factor - std::clamp(step, 1e-9 * now.factor, 0.9 * now.factor);
+}
+
+double CriticalFactor::between() {
+  const Trial &a = *short_of_, &b = *beyond_;
+  // secants settle smooth stretches, halving jumps
+  const double share = tried_ % 3 == 0 ? 0.5 : (1.0 - a.index) / (b.index - a.index);
+  return a.factor + std::clamp(share, 1e-3, 1.0 - 1e-3) * (b.factor - a.factor);
+}
+
+}  // namespace cdca

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The search for the load factor at which the next tip grows, where faces touch.
+#pragma once
+
+#include <optional>
+
+namespace cdca {
+
+/// Load factors to try, one after the other, until the greatest index of all tips is 1. The index
+/// is a broken line over the factor, with jumps where faces stick or slip, and need not rise.
+///
+/// A tip that is short of growing after the last growth grows under the next higher load that opens
+/// it, even if less load would open it sooner: the load only goes down where tips are beyond
+/// growing. Where friction holds the faces when it goes down, unloading does not stop a tip: it
+/// grows under the load that is there, with an index above 1.
+class CriticalFactor {
+ public:
+  /// last: factor of the last growth; 0 before any, when the index is proportional to the load or
+  /// nearly so.
+  explicit CriticalFactor(double last);
+
+  /// The factor to try.
+  double next() const { return next_; }
+  /// Tells the greatest index there; 0 if no tip is opened.
+  void tell(double index);
+
+  /// The last factor that was tried is the answer.
+  bool ended() const { return ended_; }
+  /// With it a tip grows. Otherwise none does, not even under ten times the last load.
+  bool grows() const { return grows_; }
+
+ private:
+  struct Trial {
+    double factor = 0.0;
+    double index = 0.0;
+  };
+  double higher(const Trial& now) const;
+  double lower(const Trial& now) const;
+  double between();
+  /// One more trial, there, whatever it shows.
+  void end_at(double factor, bool grows);
+  void end(bool grows);
+
+  double start_;
+  bool virgin_;  ///< nothing has grown yet
+  double next_;
+  Trial before_;  ///< no load, no index, to begin with
+  std::optional<Trial> short_of_, beyond_;
+  int tried_ = 0;
+  bool last_trial_ = false;
+  bool ended_ = false;
+  bool grows_ = false;
+};
+
+}  // namespace cdca

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The search for the load factor at which the next tip grows.
+#include "core/simulation/critical_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace cdca::testing {
+namespace {
+
+struct Found {
+  double factor = 0.0;
+  int trials = 0;
+  bool grows = false;
+};
+
+Found found(double last, const std::function<double(double)>& index) {
+  CriticalFactor search(last);
+  Found result;
+  while (!search.ended() && result.trials < 60) {
+    result.factor = search.next();
+    search.tell(index(result.factor));
+    ++result.trials;
+  }
+  result.grows = search.grows();
+  return result;
+}
+
+TEST(CriticalFactor, ProportionalIndexTakesTwoTrials) {
+  for (const double last : {0.0, 2.0, 7.0}) {
+    const Found f = found(last, [](double s) { return s / 4; });
+    EXPECT_NEAR(f.factor, 4.0, 1e-6);
+    EXPECT_EQ(f.trials, 2);
+    EXPECT_TRUE(f.grows);
+  }
+  const Found far = found(0.0, [](double s) { return 1e-7 * s; });
+  EXPECT_NEAR(far.factor, 1e7, 10.0);
+}
+
+/// Friction holds the faces at first, and the wings close a little; later the faces slide again.
+TEST(CriticalFactor, ATipShortOfGrowingWaitsForMoreLoad) {
+  const auto index = [](double s) { return std::max(0.99 - 0.05 * (s - 10), 0.1 * (s - 2)); };
+  ASSERT_GT(index(9.0), 1.0);  // less load would open it
+  const Found f = found(10.0, index);
+  EXPECT_TRUE(f.grows);
+  EXPECT_NEAR(f.factor, 12.0, 1e-4);
+}
+
+TEST(CriticalFactor, SnapsBackWhereFacesSlideBack) {
+  const Found f = found(10.0, [](double s) { return s > 8 ? 0.8 + 0.1 * (s - 4) : 0.15 * s; });
+  EXPECT_TRUE(f.grows);
+  EXPECT_NEAR(f.factor, 20.0 / 3, 1e-5);
+}
+
+TEST(CriticalFactor, GrowsUnderTheLoadThatIsThereWhereFrictionHolds) {
+  for (const double slope : {0.0, 0.02, -0.03}) {
+    const Found f = found(10.0, [=](double s) { return 1.3 + slope * (s - 10); });
+    EXPECT_TRUE(f.grows);
+    EXPECT_EQ(f.factor, 10.0);
+    EXPECT_LE(f.trials, 3);
+  }
+}
+
+TEST(CriticalFactor, EndsAboveAJump) {
+  const Found f = found(5.0, [](double s) { return s < 7.3 ? 0.9 : 1.2; });
+  EXPECT_TRUE(f.grows);
+  EXPECT_GE(f.factor, 7.3);
+  EXPECT_LT(f.factor, 7.3 + 2e-5);
+}
+
+TEST(CriticalFactor, GivesUpWhereNothingOpensATip) {
+  EXPECT_FALSE(found(0.0, [](double) { return 0.0; }).grows);
+  const Found f = found(3.0, [](double s) { return 1 / (1 + s); });
+  EXPECT_FALSE(f.grows);
+  EXPECT_EQ(f.factor, 3.0);
+}
+
+}  // namespace
+}  // namespace cdca::testing
