@@ -2,9 +2,11 @@
 #include "tests/verification/reference_contact.hpp"
 
 #include "core/mechanics/fracture_criterion.hpp"
+#include "core/simulation/drawing.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,13 +33,13 @@ std::vector<Comparison> compared_tips(const ReferenceCase& c, const ReferenceGeo
 
 /// Where faces that touch at the beginning of a straight crack along x stop to do so.
 double closure_point(const Model& model) {
-  const auto& points = model.registry().cracks().at(0).points;
-  double x = points.front().x();
-  for (const ContactPatch& p : model.contact().patches()) {
-    if (p.now.state == ContactState::open) break;
-    x = points[0].x() + p.to * (points[1] - points[0]).x();
+  const CrackPart faces = draw_cracks(model);
+  double open_from = model.registry().cracks().at(0).points.back().x();
+  for (std::size_t k = 0; k < faces.crack.size(); ++k) {
+    if (faces.contact_state[k] == int(ContactState::open))
+      open_from = std::min({open_from, faces.points[4 * k], faces.points[4 * k + 2]});
   }
-  return x;
+  return open_from;
 }
 
 Comparison relative(const std::string& what, double computed, double reference, double allowed) {
