@@ -3,6 +3,7 @@
 /// tagged "growth", its beginning on a coarse grid in every test run, all of it in the slow suite.
 #include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
+#include "tests/verification/path_comparison.hpp"
 #include "tests/verification/reference_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -71,21 +72,6 @@ GrowthCase growth_case(const ReferenceCase& reference) {
   return c;
 }
 
-double distance_to(const std::vector<Vec2>& path, const Vec2& x) {
-  double nearest = 1e300;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    const Vec2 foot = path[k] + nearest_fraction(path[k], path[k + 1], x) * (path[k + 1] - path[k]);
-    nearest = std::min(nearest, (foot - x).norm());
-  }
-  return nearest;
-}
-
-double farthest(const std::vector<Vec2>& points, const std::vector<Vec2>& path) {
-  double distance = 0.0;
-  for (const Vec2& x : points) distance = std::max(distance, distance_to(path, x));
-  return distance;
-}
-
 Summary grown(const CaseSpec& spec) {
   return run_simulation(spec, "test", world(), world_partitioner(), {});
 }
@@ -98,16 +84,10 @@ std::pair<int, int> tip_of(const std::string& key) { return {key.at(1) - '0', ke
 void expect_first_kinks(const ReferenceCase& reference, const GrowthCase& c, const Summary& run) {
   for (const auto& [key, angle] : reference.json.at("mts0").items()) {
     const auto [crack, end] = tip_of(key);
-    auto initial = c.spec.cracks.at(std::size_t(crack)).points;
-    if (end == 0) std::reverse(initial.begin(), initial.end());
-    auto path = run.cracks.at(std::size_t(crack)).points;
-    if (end == 0) std::reverse(path.begin(), path.end());
-    const auto is_tip = [&](const Vec2& x) { return (x - initial.back()).norm() < 1e-9 * c.step; };
-    const auto tip = std::find_if(path.begin(), path.end(), is_tip);
-    ASSERT_TRUE(tip != path.end() && tip + 1 != path.end()) << "tip " << key << " did not grow";
-    const Vec2 before = initial.back() - initial.front(), after = *(tip + 1) - *tip;
-    const double kink = std::atan2(cross(before, after), before.dot(after)) / degree;
-    EXPECT_NEAR(kink, angle.get<double>(), 3.0) << "tip " << key;
+    const auto kink = first_kink(c.spec.cracks.at(std::size_t(crack)).points,
+                                 run.cracks.at(std::size_t(crack)).points, end);
+    ASSERT_TRUE(kink) << "tip " << key << " did not grow";
+    EXPECT_NEAR(*kink, angle.get<double>(), 3.0) << "tip " << key;
   }
 }
 

@@ -51,9 +51,11 @@ struct ReferenceGeometry {
 ReferenceGeometry geometry_of(const ReferenceCase& reference);
 
 struct ReferenceLoad {
-  enum class Kind { stress, bending, edge_shear };
+  enum class Kind { stress, slope, bending, edge_shear };
   Kind kind = Kind::stress;
-  Voigt stress{0, 0, 0};  ///< on the rim, or far away
+  Voigt stress{0, 0, 0};             ///< on the rim, or far away
+  double slope = 0.0;                ///< sigma_yy = slope x on the rim, or far away
+  std::optional<double> friction{};  ///< of faces that touch; without it they do not
 };
 ReferenceLoad load_of(const ReferenceCase& reference);
 
@@ -78,6 +80,9 @@ std::vector<ExpectedStress> expected_stresses(const ReferenceCase& reference);
 /// The tolerances that a case may name.
 struct ReferenceTolerance {
   std::optional<double> k_rel, k2_over_max, k_over_max, k_rel_of_max, stress_rel;
+  std::optional<double> k2_rel, k1_over_k2;          ///< of closed cracks
+  std::optional<double> closure_elements;            ///< of the place where a crack closes
+  std::optional<double> initiation_rel, arrest_rel;  ///< of stresses and lengths
 };
 ReferenceTolerance tolerance_of(const ReferenceCase& reference);
 

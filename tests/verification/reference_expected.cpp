@@ -37,11 +37,41 @@ Vec2 place_of(const ReferenceGeometry& g, const std::string& name) {
   static const std::regex form(R"(.*tip[(\[]([-+.\de]+),\s*([-+.\de]+)[)\]])");
   if (name == "left") return g.cracks.at(0).points.back();
   if (name == "right") return g.cracks.at(1).points.back();
+  if (name == "lower outer") return g.cracks.at(0).points.front();
+  if (name == "lower inner") return g.cracks.at(0).points.back();
+  if (name == "upper inner") return g.cracks.at(1).points.front();
+  if (name == "upper outer") return g.cracks.at(1).points.back();
+  static const std::regex numbers(R"(\((\d), (\d)\))");  // crack and end
   std::smatch match;
+  if (std::regex_match(name, match, numbers)) {
+    const auto& points = g.cracks.at(std::size_t(std::stoi(match[1]))).points;
+    return match[2] == "0" ? points.front() : points.back();
+  }
   if (!std::regex_match(name, match, form)) {
     throw std::runtime_error("reference \"" + name + "\" names no tip");
   }
   return {std::stod(match[1]), std::stod(match[2])};
+}
+
+/// Closed cracks: the two tips of one flaw, in its plate where the reference has one.
+std::vector<ExpectedTip> closed_tips(const ReferenceGeometry& g, const json& r) {
+  const double k2 = r.at(r.contains("KII_plate60x120") ? "KII_plate60x120" : "KII_infinite");
+  const auto& points = g.cracks.at(0).points;
+  return {{points.front(), r.at("KI"), k2}, {points.back(), r.at("KI"), k2}};
+}
+
+/// A flaw with a wing at each end, alike by symmetry.
+std::vector<ExpectedTip> wing_tips(const ReferenceGeometry& g, const json& r) {
+  const auto& points = g.cracks.at(0).points;
+  return {tip_of(points.front(), r), tip_of(points.back(), r)};
+}
+
+/// Open at its right end, closed at its left one. F = K / (sigma sqrt(pi a)).
+std::vector<ExpectedTip> half_open_tips(const ReferenceGeometry& g, const json& r) {
+  const double scale = root_pi * std::sqrt(g.longest());
+  const auto& points = g.cracks.at(0).points;
+  return {{points.front(), scale * r.at("FI_left").get<double>()},
+          {points.back(), scale * r.at("FI_right").get<double>()}};
 }
 
 /// Two collinear cracks of half length 1: outer, inner, inner, outer tip.
@@ -71,6 +101,9 @@ std::vector<ExpectedTip> expected_tips(const ReferenceCase& c) {
   const json& r = c.json.at("reference");
   const ReferenceGeometry g = geometry_of(c);
   const Vec2 only_tip = g.cracks.at(0).points.back();
+  if (r.contains("KII_infinite")) return closed_tips(g, r);
+  if (r.contains("FI_right")) return half_open_tips(g, r);
+  if (r.contains("FI")) return wing_tips(g, r);
   if (r.contains("KI")) return {tip_of(only_tip, r)};
   if (r.contains("K_over_sigma")) return {{only_tip, r.at("K_over_sigma").get<double>()}};
   if (r.contains("F")) {

@@ -9,11 +9,29 @@
 
 namespace cdca::testing {
 
-PlaneRim::PlaneRim(const Material& material, const Voigt& far_stress)
-    : poisson_((3 - material.kolosov()) / 4) {
-  const Voigt e = material.elastic_matrix().inverse() * far_stress;  // the last one is 2 eps_xy
-  far_strain_ << e[0], e[2] / 2, e[2] / 2, e[1];
+namespace {
+
+Field uniform(const Material& material, const Voigt& stress) {
+  const Voigt e = material.elastic_matrix().inverse() * stress;  // the last one is 2 eps_xy
+  Eigen::Matrix2d strain;
+  strain << e[0], e[2] / 2, e[2] / 2, e[1];
+  return [strain](const Vec2& x) { return Vec2(strain * x); };
 }
+
+}  // namespace
+
+Field sloping_tension(const Material& material, double slope) {
+  const Voigt e = material.elastic_matrix().inverse() * Voigt(0, slope, 0);  // at x = 1
+  return [e](const Vec2& x) {
+    return Vec2(0.5 * (e[0] * x.x() * x.x() - e[1] * x.y() * x.y()), e[1] * x.x() * x.y());
+  };
+}
+
+PlaneRim::PlaneRim(const Material& material, const Voigt& far_stress)
+    : PlaneRim(material, uniform(material, far_stress)) {}
+
+PlaneRim::PlaneRim(const Material& material, Field far)
+    : poisson_((3 - material.kolosov()) / 4), far_(std::move(far)) {}
 
 void PlaneRim::hold(CaseSpec& spec) const {
   hold_rim(spec, [this](const Vec2& x) { return displacement(x); });
@@ -54,7 +72,7 @@ void PlaneRim::relax(std::vector<Jump> solved) {
 }
 
 Vec2 PlaneRim::displacement(const Vec2& x) const {
-  Vec2 u = far_strain_ * x;
+  Vec2 u = far_(x);
   for (const Jump& j : jumps_) {
     const double r = (j.at - x).norm();
     const Vec2 d = (j.at - x) / r;

@@ -13,13 +13,15 @@ namespace cdca::testing {
 ///
 ///     u_k(x) = E_kl x_l + int over cracks of [u_i] S_ijk n_j ds          (Somigliana's formula),
 ///
-/// S_ijk(xi - x) the stress at xi of a unit force at x in direction k (Kelvin), n from the minus to
-/// the plus face. The jumps are those of the model itself: solve, take them, and solve again, until
-/// nothing changes (Aitken's relaxation saves half of the solves). What is then found holds for the
-/// infinite plane, however small the rectangle.
+/// (or those of another field far away), S_ijk(xi - x) the stress at xi of a unit force at x in
+/// direction k (Kelvin), n from the minus to the plus face. The jumps are those of the model
+/// itself: solve, take them, and solve again, until nothing changes (Aitken's relaxation saves half
+/// of the solves). What is then found holds for the infinite plane, however small the rectangle.
 class PlaneRim {
  public:
   PlaneRim(const Material& material, const Voigt& far_stress);
+  /// far: displacements without cracks.
+  PlaneRim(const Material& material, Field far);
   PlaneRim(const PlaneRim&) = delete;
   PlaneRim& operator=(const PlaneRim&) = delete;
 
@@ -42,10 +44,13 @@ class PlaneRim {
   void relax(std::vector<Jump> solved);
 
   double poisson_;  ///< of plane strain; in plane stress the one that gives the same plane field
-  Eigen::Matrix2d far_strain_;
+  Field far_;
   std::vector<Jump> jumps_;
   std::vector<Vec2> change_;  ///< of the last jumps
   double relaxation_ = 1.0;
 };
+
+/// Displacements of a plane with sigma_yy = slope x.
+Field sloping_tension(const Material& material, double slope);
 
 }  // namespace cdca::testing

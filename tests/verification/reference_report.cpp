@@ -2,6 +2,7 @@
 #include "tests/verification/reference_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -124,6 +125,28 @@ std::vector<std::string> summary_of(const std::vector<std::string>& rows) {
 
 double magnitude(const ExpectedTip& tip) { return std::hypot(tip.k1, tip.k2); }
 
+/// What the errors of K_I and K_II of a tip are relative to, and how large they may be.
+struct ErrorRule {
+  std::array<double, 2> scale, allowed;
+};
+
+ErrorRule rule_for(const ExpectedTip& e, double largest, const ReferenceTolerance& t) {
+  const auto or_largest = [&](double k) {
+    return std::abs(k) > 1e-3 * largest ? std::abs(k) : largest;
+  };
+  if (t.k_rel_of_max) return {{largest, largest}, {*t.k_rel_of_max, *t.k_rel_of_max}};
+  if (t.k2_rel) {
+    return {{or_largest(magnitude(e)), or_largest(e.k2)},
+            {t.k1_over_k2.value_or(*t.k2_rel), *t.k2_rel}};
+  }
+  if (t.k2_over_max || t.k_over_max) {
+    return {{or_largest(e.k1), largest},
+            {t.k_rel.value(), t.k2_over_max ? *t.k2_over_max : *t.k_over_max}};
+  }
+  const double size = or_largest(magnitude(e));
+  return {{size, size}, {t.k_rel.value(), t.k_rel.value()}};
+}
+
 }  // namespace
 
 const Comparison& ReferenceResult::worst() const {
@@ -134,28 +157,18 @@ const Comparison& ReferenceResult::worst() const {
 
 std::vector<Comparison> compare_tips(const std::vector<ExpectedTip>& expected,
                                      const std::vector<ExpectedTip>& computed,
-                                     const ReferenceTolerance& t) {
+                                     const ReferenceTolerance& t, double unit) {
   double largest = 0.0;
   for (const ExpectedTip& tip : expected) largest = std::max(largest, magnitude(tip));
+  if (largest < 1e-9 * unit) largest = unit;
   std::vector<Comparison> found;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const ExpectedTip& e = expected[k];
+    const double k1 = computed[k].k1;
     const double k2 = e.sign_of_k2 ? computed[k].k2 : std::abs(computed[k].k2);
-    double scale[2] = {largest, largest};
-    double allowed[2];
-    if (t.k_rel_of_max) {
-      allowed[0] = allowed[1] = *t.k_rel_of_max;
-    } else if (t.k2_over_max || t.k_over_max) {
-      if (std::abs(e.k1) > 1e-3 * largest) scale[0] = std::abs(e.k1);
-      allowed[0] = t.k_rel.value();
-      allowed[1] = t.k2_over_max ? *t.k2_over_max : *t.k_over_max;
-    } else {
-      scale[0] = scale[1] = magnitude(e);
-      allowed[0] = allowed[1] = t.k_rel.value();
-    }
+    const auto [scale, allowed] = rule_for(e, largest, t);
     const std::string place = "tip (" + number(e.at.x(), 4) + ", " + number(e.at.y(), 4) + ")";
-    found.push_back({place, "K_I", computed[k].k1, e.k1, std::abs(computed[k].k1 - e.k1) / scale[0],
-                     allowed[0]});
+    found.push_back({place, "K_I", k1, e.k1, std::abs(k1 - e.k1) / scale[0], allowed[0]});
     found.push_back({place, "K_II", k2, e.k2, std::abs(k2 - e.k2) / scale[1], allowed[1]});
   }
   return found;

@@ -38,9 +38,13 @@ struct ReferenceResult {
 ///                          that is below K_max / 1000), K_II relative to K_max of the whole case
 ///   K_rel alone            both relative to |K| = sqrt(K_I^2 + K_II^2) of the tip
 ///   K_rel_of_max           both relative to K_max, the largest |K| of the case
+///   KII_rel                closed cracks: K_I relative to |K|, at most KI_abs_over_KII if that is
+///                          there; K_II relative to its reference
+///
+/// A tip without intensity counts with K_max, and that of a case without any with `unit`.
 std::vector<Comparison> compare_tips(const std::vector<ExpectedTip>& expected,
                                      const std::vector<ExpectedTip>& computed,
-                                     const ReferenceTolerance& tolerance);
+                                     const ReferenceTolerance& tolerance, double unit = 1.0);
 
 /// One line for every comparison.
 std::string log_of(const ReferenceResult& result);

@@ -31,6 +31,13 @@ void bend(CaseSpec& spec) {
   add_traction(spec, Side::bottom, [](const Vec2& x) { return Vec2(0, 2 * x.x() - 1); });
 }
 
+/// sigma_yy = slope x on both ends.
+void pull_aslant(CaseSpec& spec, double slope) {
+  pull(spec, {0, 0, 0});  // the supports
+  add_traction(spec, Side::top, [=](const Vec2& x) { return Vec2(0, slope * x.x()); });
+  add_traction(spec, Side::bottom, [=](const Vec2& x) { return Vec2(0, -slope * x.x()); });
+}
+
 /// tau = 1 along the top, bottom held.
 void shear_held_plate(CaseSpec& spec) {
   spec.material.poisson = 0.25;
@@ -38,6 +45,16 @@ void shear_held_plate(CaseSpec& spec) {
   held.displacement = constant_load(0, 0);
   spec.boundaries.push_back(held);
   add_traction(spec, Side::top, [](const Vec2&) { return Vec2(1, 0); });
+}
+
+ContactSpec touching_faces(const CaseSpec& spec, const ReferenceGrid& grid, double friction) {
+  ContactSpec contact;
+  contact.law = friction > 0.0 ? ContactLaw::coulomb : ContactLaw::frictionless;
+  const double side = (grid.upper.x() - grid.lower.x()) / grid.nx;
+  contact.normal_stiffness = grid.contact_stiffness * spec.material.young / side;
+  contact.tangential_stiffness = contact.normal_stiffness / 100;
+  contact.friction = friction;
+  return contact;
 }
 
 double largest_change(const std::vector<StressIntensity>& a,
@@ -94,9 +111,13 @@ CaseSpec spec_of(const ReferenceGeometry& g, const ReferenceLoad& load, const Re
   spec.tip_radius = grid.tip_radius;
   spec.solver.tolerance = 1e-8;
   for (const auto& crack : g.cracks) add_crack(spec, crack.points);
+  if (load.friction) {
+    for (CrackSpec& crack : spec.cracks) crack.contact = touching_faces(spec, grid, *load.friction);
+  }
   if (g.infinite) return spec;
   switch (load.kind) {
     case ReferenceLoad::Kind::stress: pull(spec, load.stress); break;
+    case ReferenceLoad::Kind::slope: pull_aslant(spec, load.slope); break;
     case ReferenceLoad::Kind::bending: bend(spec); break;
     case ReferenceLoad::Kind::edge_shear: shear_held_plate(spec); break;
   }
@@ -115,7 +136,9 @@ SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad&
   if (g.infinite) {
     const Material material{s.spec->material.young, s.spec->material.poisson,
                             s.spec->domain.plane_strain};
-    s.rim = std::make_unique<PlaneRim>(material, load.stress);
+    s.rim = load.kind == ReferenceLoad::Kind::slope
+                ? std::make_unique<PlaneRim>(material, sloping_tension(material, load.slope))
+                : std::make_unique<PlaneRim>(material, load.stress);
     s.rim->hold(*s.spec);
   }
   s.model = built(*s.spec);

@@ -20,6 +20,8 @@ struct ReferenceGrid {
   int nx = 0;
   int ny = 0;
   double tip_radius = 0.0;
+  /// k_N h / E of touching faces; k_T is a hundredth of k_N.
+  double contact_stiffness = 1000.0;
 
   /// Rough: time grows with elements times iterations, and the latter with elements across.
   double cost(const ReferenceGeometry& g) const;

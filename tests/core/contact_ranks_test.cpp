@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Touching faces stick, slip, open and drive wings alike on any number of ranks, with rank borders
+/// along them and across them.
+#include "core/mechanics/interaction_integral.hpp"
+#include "core/simulation/simulation.hpp"
+#include "tests/plates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace cdca::testing {
+namespace {
+
+constexpr int nx = 24, ny = 32;
+constexpr double h = 0.05;
+
+Partitioner all_in_one() {
+  return [](const PartitionGraph& graph, int) { return std::vector<int>(graph.weights.size(), 0); };
+}
+
+/// Horizontal strips: their borders run along y = 0.4, 0.8 and 1.2.
+Partitioner strips() {
+  return [](const PartitionGraph& graph, int parts) {
+    std::vector<int> owner;
+    for (int k = 0; k < int(graph.weights.size()); ++k)
+      owner.push_back(std::min(k / (nx + 1) * parts / ny, parts - 1));
+    return owner;
+  };
+}
+
+/// Every few cells have another owner.
+Partitioner scattered() {
+  return [](const PartitionGraph& graph, int parts) {
+    std::vector<int> owner;
+    for (int k = 0; k < int(graph.weights.size()); ++k)
+      owner.push_back((k % (nx + 1) / 3 + 2 * (k / (nx + 1) / 4)) % parts);
+    return owner;
+  };
+}
+
+void add_touching(CaseSpec& spec, std::vector<Vec2> points, double friction) {
+  add_crack(spec, std::move(points));
+  spec.cracks.back().contact = {ContactLaw::coulomb, 1e7, 1e5, friction, 0.0, 0.0, 0.0};
+}
+
+/// Pressed from above by 1, sheared by the load factor.
+CaseSpec sheared() {
+  CaseSpec spec = plate({0, 0}, {nx * h, ny * h}, nx, ny);
+  add_touching(spec, {{0.14, 1.16}, {0.52, 1.43}}, 0.3);
+  add_touching(spec, {{0.55, 0.8}, {1.05, 0.8}}, 0.3);  // on a rank border
+  add_touching(spec, {{0.25, 0.13}, {0.24, 0.3}, {0.53, 0.57}, {0.54, 0.72}}, 0.1);  // with wings
+  add_touching(spec, {{0.85, 0.2}, {0.85, 0.6}}, 0.2);
+  add_touching(spec, {{0.66, 1.05}, {1.08, 1.33}}, 0.4);
+  add_touching(spec, {{0.7, 1.5}, {0.8784, 1.1956}}, 0.4);  // a T
+  BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom);
+  top.traction[0] = proportional_load(1);
+  top.traction[1] = LoadValue{[](double, double, double) { return -1.0; }, false, "-1"};
+  bottom.displacement = constant_load(0, 0);
+  spec.boundaries = {top, bottom};
+  spec.solver.tolerance = 1e-11;
+  return spec;
+}
+
+struct Answer {
+  std::vector<ContactPatch> patches;
+  std::vector<StressIntensity> tips;
+  double friction = 0.0;
+};
+
+/// After a load history of three steps.
+Answer answer(Communicator& ranks, const Partitioner& partitioner) {
+  Model model(sheared(), ranks, partitioner);
+  model.build_stiffness();
+  Answer a;
+  for (const double s : {0.1, 0.4, 0.7}) {
+    find_equilibrium(model, *make_solver(model), s);
+    a.friction += model.accept_contact();
+  }
+  a.patches = model.contact().patches();
+  a.tips = stress_intensities(model.basis(), model.registry().cracks(), model.material(),
+                              model.loads(0.7), model.state(), model.communicator());
+  return a;
+}
+
+TEST(ContactParallel, SameStatesTractionsAndIntensities) {
+  SerialCommunicator serial;
+  const Answer one = answer(serial, all_in_one());
+  std::set<ContactState> states;
+  for (const ContactPatch& p : one.patches) states.insert(p.now.state);
+  EXPECT_EQ(states.size(), 3U) << "some faces stick, some slip, some are open";
+  EXPECT_GT(one.friction, 0.0);
+  for (const Partitioner& partitioner : {strips(), scattered(), world_partitioner()}) {
+    const Answer many = answer(world(), partitioner);
+    EXPECT_NEAR(many.friction, one.friction, 1e-7 * one.friction);
+    ASSERT_EQ(many.patches.size(), one.patches.size());
+    for (std::size_t k = 0; k < one.patches.size(); ++k) {
+      const ContactPatch &a = one.patches[k], &b = many.patches[k];
+      EXPECT_EQ(a.now.state, b.now.state) << "crack " << a.crack << " from " << a.from;
+      EXPECT_NEAR(a.now.normal, b.now.normal, 1e-6);
+      EXPECT_NEAR(a.now.tangential, b.now.tangential, 1e-6);
+    }
+    ASSERT_EQ(many.tips.size(), one.tips.size());
+    for (std::size_t t = 0; t < one.tips.size(); ++t) {
+      EXPECT_NEAR(one.tips[t].k1, many.tips[t].k1, 1e-6);
+      EXPECT_NEAR(one.tips[t].k2, many.tips[t].k2, 1e-6);
+    }
+  }
+}
+
+/// Two flaws under compression and their wings.
+CaseSpec wings() {
+  CaseSpec spec = plate({0, 0}, {nx * h, ny * h}, nx, ny);
+  add_touching(spec, {{0.24, 0.33}, {0.52, 0.63}}, 0.3);
+  add_touching(spec, {{0.65, 0.96}, {0.96, 1.24}}, 0.2);
+  pull(spec, {0, -1, 0});
+  spec.solver.tolerance = 1e-11;
+  spec.material.toughness = 1.0;
+  spec.growth.criterion = Criterion::hoop;
+  spec.growth.fixed_step = true;
+  spec.growth.step_length = {1.2, 1.2};
+  spec.loading.critical = true;
+  spec.loading.max_events = 4;
+  return spec;
+}
+
+TEST(ContactParallel, SameWings) {
+  SerialCommunicator serial;
+  const Summary one = run_simulation(wings(), "test", serial, all_in_one(), {});
+  EXPECT_GE(one.steps.back().crack_length, one.steps.front().crack_length + 2.9 * 1.2 * h);
+  for (const Partitioner& partitioner : {strips(), scattered()}) {
+    const Summary many = run_simulation(wings(), "test", world(), partitioner, {});
+    EXPECT_EQ(one.status, many.status);
+    ASSERT_EQ(one.steps.size(), many.steps.size());
+    for (std::size_t k = 0; k < one.steps.size(); ++k)
+      EXPECT_NEAR(one.steps[k].load_factor, many.steps[k].load_factor,
+                  1e-6 * one.steps[k].load_factor);
+    for (std::size_t c = 0; c < one.cracks.size(); ++c) {
+      ASSERT_EQ(one.cracks[c].points.size(), many.cracks[c].points.size());
+      for (std::size_t k = 0; k < one.cracks[c].points.size(); ++k)
+        EXPECT_LT((one.cracks[c].points[k] - many.cracks[c].points[k]).norm(), 1e-4 * h);
+    }
+    for (std::size_t t = 0; t < one.tips.size(); ++t) {
+      EXPECT_NEAR(one.tips[t].k1, many.tips[t].k1, 1e-6);
+      EXPECT_NEAR(one.tips[t].k2, many.tips[t].k2, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cdca::testing
