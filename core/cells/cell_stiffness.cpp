@@ -208,9 +208,17 @@ void CellStiffness::add_springs(const std::vector<double>& springs) {
     const LocalId u = rows_.unknown[r];
     if (u >= owned_ || springs[std::size_t(u)] == 0.0) continue;
     for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
-      if (rows_.column[k] == u) rows_.value[k] *= 1 + springs[std::size_t(u)];
+      if (rows_.column[k] != u) continue;
+      springs_.emplace_back(u, rows_.value[k] * springs[std::size_t(u)]);
+      rows_.value[k] += springs_.back().second;
     }
   }
+}
+
+void CellStiffness::add_spring_forces(std::span<const double> displacements,
+                                      std::span<double> forces) const {
+  for (const auto& [u, spring] : springs_)
+    forces[std::size_t(u)] += spring * displacements[std::size_t(u)];
 }
 
 void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,

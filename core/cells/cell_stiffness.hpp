@@ -56,6 +56,9 @@ class CellStiffness final : public CellSystem {
   void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
   void clear_held(std::span<double> values) const override;
 
+  /// Adds what the weak springs would pull with if they stood at zero, on own cells, N/m.
+  void add_spring_forces(std::span<const double> displacements, std::span<double> forces) const;
+
   const RegularRuns& regular() const { return regular_; }
   /// Of all cells that do not use the common stencil; columns of ghosts included.
   const StiffnessRows& rows() const { return rows_; }
@@ -99,7 +102,8 @@ class CellStiffness final : public CellSystem {
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;
-  int colour_ = 0;  ///< ranks of one colour share no element
+  std::vector<std::pair<LocalId, double>> springs_;  ///< by own unknown, Pa
+  int colour_ = 0;                                   ///< ranks of one colour share no element
   int colours_ = 1;
 };
 

@@ -33,22 +33,31 @@ ContactAnswer opened(const ContactSpec& s, double largest, double g) {
 
 }  // namespace
 
+double friction_limit(const ContactSpec& s, double gap) {
+  return gap > 0.0 ? 0.0 : s.friction * s.normal_stiffness * -gap + s.cohesion;
+}
+
 ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactAnswer& before,
-                             const ContactGap& gap, double pressure) {
-  if (s.law == ContactLaw::none || gap.normal > 0.0) return opened(s, largest, gap.normal);
+                             const ContactGap& gap, double limit) {
   ContactAnswer a;
-  a.largest = largest;
-  a.normal_spring = s.normal_stiffness;
-  a.normal = s.normal_stiffness * gap.normal;
-  a.state = ContactState::slip;
+  if (s.law == ContactLaw::none) return a;
+  const bool open = gap.normal > 0.0;
+  if (open) {
+    a = opened(s, largest, gap.normal);
+    if (s.law == ContactLaw::cohesive) return a;
+  } else {
+    a.largest = largest;
+    a.normal_spring = s.normal_stiffness;
+    a.normal = s.normal_stiffness * gap.normal;
+    a.state = ContactState::slip;
+  }
   if (s.law == ContactLaw::frictionless || s.tangential_stiffness <= 0.0) return a;
   const double trial = s.tangential_stiffness * gap.tangential;
-  const double limit = s.friction * pressure + s.cohesion;
-  const bool turns = before.slides() && trial * before.tangential < 0.0;
-  if (turns || std::abs(trial) <= limit) {
-    a.state = ContactState::stick;
+  const bool turns = before.tangential_spring == 0.0 && trial * before.tangential < 0.0;
+  if (turns || std::abs(trial) < limit || (!open && trial == 0.0)) {
     a.tangential = trial;
     a.tangential_spring = s.tangential_stiffness;
+    if (!open) a.state = ContactState::stick;
     return a;
   }
   a.tangential = std::copysign(limit, trial);

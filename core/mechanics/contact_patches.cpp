@@ -16,6 +16,17 @@ Key key_of(int crack, const Vec2& a, const Vec2& b) {
   return {double(crack), a.x(), a.y(), b.x(), b.y()};
 }
 
+/// Of springs, Pa/m.
+bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(a, b); }
+
+/// Starts at the stiffness of a spring that comes or goes, and fades.
+void damp(double& damping, double before, double next, double stiffness, bool held_back) {
+  constexpr double fading = 0.03, least = 1e-4;
+  const double stiffest = std::max({before, next, damping});
+  damping = held_back && differ(before, next) ? stiffest : fading * damping;
+  if (damping < least * stiffness) damping = 0.0;
+}
+
 }  // namespace
 
 ContactPatches::ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
@@ -98,7 +109,7 @@ void ContactPatches::take_over(const ContactPatches& previous) {
         p.slip += shared * q.slip;
         p.largest += shared * q.largest;
         p.tangential += shared * q.tangential;
-        if (shared > most) most = shared, p.now = q.now, p.gap = q.gap;
+        if (shared > most) most = shared, p.now = q.now, p.gap = q.gap, p.limit = q.limit;
       }
       if (sum > 0.0) p.slip /= sum, p.largest /= sum, p.tangential /= sum;
     }
@@ -124,46 +135,82 @@ std::vector<FaceStretch> ContactPatches::on(GridIndex element, std::size_t face)
   std::vector<FaceStretch> stretches;
   const auto own = of_face(element, face);
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const ContactAnswer& now = patches_[own[k]].now;
+    const ContactPatch& p = patches_[own[k]];
     const double share = 1.0 / double(own.size());
     stretches.push_back(
-        {double(k) * share, double(k + 1) * share, now.normal_spring, now.tangential_spring});
+        {double(k) * share, double(k + 1) * share, p.normal_spring(), p.tangential_spring()});
   }
   return stretches;
 }
 
 std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactGap>& gaps) const {
-  // friction feels the mean pressure of the closed patches of a group
-  std::vector<double> pressure(groups_.size(), 0.0), closed(groups_.size(), 0.0);
-  for (std::size_t k = 0; k < patches_.size(); ++k) {
-    const ContactPatch& p = patches_[k];
-    if (gaps[k].normal > 0.0) continue;
-    pressure[p.group] -= p.length * law_of(p).normal_stiffness * gaps[k].normal;
-    closed[p.group] += p.length;
-  }
   std::vector<ContactAnswer> answers;
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const ContactPatch& p = patches_[k];
-    const double mean = closed[p.group] > 0.0 ? pressure[p.group] / closed[p.group] : 0.0;
-    answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], mean));
+    answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], p.limit));
   }
   return answers;
 }
 
-ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& gaps) {
-  Change change;
+bool ContactPatches::settled(const std::vector<ContactGap>& gaps) const {
   const auto answers = answers_to(gaps);
   for (std::size_t k = 0; k < patches_.size(); ++k) {
+    if (differ(answers[k].normal_spring, patches_[k].normal_spring()) ||
+        differ(answers[k].tangential_spring, patches_[k].tangential_spring()))
+      return false;
+  }
+  return true;
+}
+
+std::vector<double> ContactPatches::limits() const {
+  std::vector<double> limits;
+  for (const ContactPatch& p : patches_) limits.push_back(p.limit);
+  return limits;
+}
+
+std::vector<double> ContactPatches::limits_at(const std::vector<ContactGap>& gaps) const {
+  std::vector<double> limits;
+  for (std::size_t k = 0; k < patches_.size(); ++k)
+    limits.push_back(friction_limit(law_of(patches_[k]), gaps[k].normal));
+  return limits;
+}
+
+double ContactPatches::unbalanced(const ContactPatch& p, const ContactGap& gap,
+                                  const ContactAnswer& next) const {
+  // what the last solve counted with: springs from zero, springs that hold back, given tractions
+  const auto exerted = [](double spring, double damped, double traction, double from, double to) {
+    if (damped > spring) return traction + damped * (to - from);
+    return spring > 0.0 ? spring * to : traction;
+  };
+  const double normal =
+      exerted(p.now.normal_spring, p.normal_damping, p.now.normal, p.gap.normal, gap.normal);
+  const double tangential = exerted(p.now.tangential_spring, p.tangential_damping, p.now.tangential,
+                                    p.gap.tangential, gap.tangential);
+  return std::max(std::abs(next.normal - normal), std::abs(next.tangential - tangential));
+}
+
+ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& gaps,
+                                               const std::vector<double>& limits, bool held_back) {
+  Change change;
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
     ContactPatch& p = patches_[k];
-    const ContactAnswer& next = answers[k];
-    const double scale = std::max(next.normal_spring, p.now.normal_spring);
-    change.springs = change.springs || next.tangential_spring != p.now.tangential_spring ||
-                     std::abs(next.normal_spring - p.now.normal_spring) > 1e-9 * scale;
-    if (next.slides() || p.now.slides())
-      change.traction = std::max(change.traction, std::abs(next.tangential - p.now.tangential));
+    const ContactSpec& law = law_of(p);
+    const double found = friction_limit(law, gaps[k].normal);
+    change.unbalanced =
+        std::max(change.unbalanced,
+                 unbalanced(p, gaps[k], contact_answer(law, p.largest, p.now, gaps[k], found)));
+    const ContactAnswer next = contact_answer(law, p.largest, p.now, gaps[k], limits[k]);
+    const double before[] = {p.normal_spring(), p.tangential_spring()};
+    damp(p.normal_damping, p.now.normal_spring, next.normal_spring, law.normal_stiffness,
+         held_back);
+    damp(p.tangential_damping, p.now.tangential_spring, next.tangential_spring,
+         law.tangential_stiffness, held_back);
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     p.now = next;
     p.gap = gaps[k];
+    p.limit = limits[k];
+    change.springs = change.springs || differ(before[0], p.normal_spring()) ||
+                     differ(before[1], p.tangential_spring());
   }
   find_means();
   return change;

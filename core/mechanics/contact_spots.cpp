@@ -80,8 +80,7 @@ double ContactSpots::work(const ContactPatches& patches, const std::vector<Conta
                                s * stress * move[k].traction[axis]);
     };
     add(1, answer.normal_spring, 0.0, 0.0);
-    add(0, answer.tangential_spring, patches.patches()[spot.patch].slip,
-        answer.slides() ? answer.tangential : 0.0);
+    add(0, answer.tangential_spring, patches.patches()[spot.patch].slip, answer.tangential);
   }
   return sum;
 }
@@ -92,8 +91,8 @@ double ContactSpots::spring_work(const ContactPatches& patches, const Fields& at
   for (std::size_t k = 0; k < spots_.size(); ++k) {
     const Spot& spot = spots_[k];
     if (!spot.evaluated) continue;
-    const ContactAnswer& now = patches.patches()[spot.patch].now;
-    const double springs[] = {now.tangential_spring, now.normal_spring};
+    const ContactPatch& patch = patches.patches()[spot.patch];
+    const double springs[] = {patch.tangential_spring(), patch.normal_spring()};
     for (int axis = 0; axis < 2; ++axis) {
       const SpringTerms terms(spot.geometry, spot.at.compliance, springs[axis]);
       const double jump = at[k].jump[axis], stress = at[k].traction[axis];
@@ -109,21 +108,38 @@ double ContactSpots::spring_work(const ContactPatches& patches, const Fields& at
 void ContactSpots::add_forces(const ContactPatches& patches, LocalId owned,
                               std::span<double> forces) const {
   for (const Spot& spot : spots_) {
-    const ContactAnswer& now = patches.patches()[spot.patch].now;
-    // a given traction, or a spring whose zero has slipped away
-    double on_jump = now.slides() ? now.tangential : 0.0;
-    double on_stress = spot.geometry.uses_stress ? spot.at.compliance * on_jump : 0.0;
-    if (now.tangential_spring > 0.0) {
-      const SpringTerms terms(spot.geometry, spot.at.compliance, now.tangential_spring);
-      on_jump = -patches.patches()[spot.patch].slip * terms.jump;
-      on_stress = -patches.patches()[spot.patch].slip * terms.mixed;
-    }
-    if (on_jump == 0.0) continue;
+    const ContactPatch& patch = patches.patches()[spot.patch];
+    const ContactSpec& law = patches.law_of(patch);
+    const double s = spot.at.compliance;
+    Vec2 on_jump(0, 0), on_stress(0, 0);  // tangential, normal
+    // a spring whose zero has moved away, or a given traction
+    const auto add = [&](int axis, double spring, double zero, double given) {
+      const SpringTerms terms(spot.geometry, s, spring);
+      on_jump[axis] = spring > 0.0 ? -zero * terms.jump : given;
+      on_stress[axis] = spring > 0.0 ? -zero * terms.mixed : spot.geometry.uses_stress * s * given;
+    };
+    // a spring that holds back pulls as the face does where it is now
+    const auto zero = [&](double gap, double stiffness, double traction, double spring) {
+      return gap * (1 + stiffness * s) - traction * (1 / spring + s);
+    };
+    const double normal = patch.normal_spring(), tangential = patch.tangential_spring();
+    const bool held = normal != patch.now.normal_spring;
+    const bool held_along = tangential != patch.now.tangential_spring;
+    add(1, normal,
+        held ? zero(patch.gap.normal, law.normal_stiffness, patch.now.normal, normal) : 0.0, 0.0);
+    add(0, tangential,
+        patch.slip + (held_along ? zero(patch.gap.tangential, law.tangential_stiffness,
+                                        patch.now.tangential, tangential)
+                                 : 0.0),
+        patch.now.tangential);
+    if (on_jump.isZero(0.0)) continue;
     const Vec2& t = spot.geometry.tangent;
+    const Vec2& n = spot.geometry.normal;
+    const Vec2 by_jump = on_jump.x() * t + on_jump.y() * n;
+    const Vec2 by_stress = on_stress.x() * t + on_stress.y() * n;
     for (const FaceFunction& f : spot.at.functions) {
       if (f.unknown >= owned) continue;
-      const Vec2 force =
-          -spot.at.weight * (on_jump * f.jump * t + on_stress * f.traction.transpose() * t);
+      const Vec2 force = -spot.at.weight * (f.jump * by_jump + f.traction.transpose() * by_stress);
       forces[std::size_t(f.unknown)] += force.x();
       forces[std::size_t(f.unknown) + 1] += force.y();
     }
@@ -139,7 +155,7 @@ double ContactSpots::energy_correction(const ContactPatches& patches, std::span<
     const ContactPatch& patch = patches.patches()[spot.patch];
     const double stiffness = patches.law_of(patch).tangential_stiffness,
                  slip = patches.patches()[spot.patch].slip;
-    if (patch.now.slides() && stiffness > 0.0) {
+    if (patch.now.tangential_spring == 0.0 && stiffness > 0.0) {
       const double t = patch.now.tangential;
       sum += spot.at.weight * 0.5 * (1 / stiffness + spot.at.compliance) * t * t;
     } else if (patch.now.tangential_spring > 0.0 && slip != 0.0) {

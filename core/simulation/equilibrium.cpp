@@ -3,11 +3,16 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/first_failure.hpp"
+#include "core/mechanics/limit_iteration.hpp"
+#include "core/simulation/line_search.hpp"
 #include "core/solver/multilevel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <sstream>
+#include <utility>
 
 namespace cdca {
 
@@ -58,8 +63,10 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   std::vector<double> forces(std::size_t(cells.count()), 0.0), product(forces);
   cells.apply(given.held, product);
   for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k] - product[k];
-  cells.clear_held(forces);
+  // weak springs of loose bodies stand where the bodies are
   std::vector<double>& state = model.state();
+  cells.add_spring_forces(state, forces);
+  cells.clear_held(forces);
   cells.clear_held(state);
   SolverReport report;
   const double scale = std::sqrt(cells.dot(forces, forces));
@@ -74,112 +81,62 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   return report;
 }
 
-/// How far to go from one state towards the next, which was found with springs that may be the
-/// wrong ones: to where the forces on the way are in balance, so that faces cannot be thrown open
-/// and shut for ever.
-class LineSearch {
- public:
-  LineSearch(const Model& model, const std::vector<double>& external,
-             const std::vector<double>& from)
-      : model_(model), move_(model.state()) {
-    for (std::size_t k = 0; k < move_.size(); ++k) move_[k] -= from[k];
-    const CellStiffness& cells = model.stiffness();
-    std::vector<double> product(move_.size(), 0.0);
-    cells.apply(from, product);
-    for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];
-    driving_ = cells.dot(product, move_);
-    cells.apply(move_, product);
-    stiffness_ = cells.dot(product, move_);
-    at_ = model.contact_spots().fields(from);
-    moves_ = model.contact_spots().fields(move_);
-    gaps_ = gaps_of(from);
-    gaps_there_ = gaps_of(model.state());
-    // the rest of the body, without the faces
-    const auto& spots = model.contact_spots();
-    driving_ += model.communicator().sum(spots.spring_work(model.contact(), at_, moves_));
-    stiffness_ -= model.communicator().sum(spots.spring_work(model.contact(), moves_, moves_));
-  }
-
-  /// Share of the move, from 0 to 1.
-  double find() const {
-    const double start = work(0.0), end = work(1.0);
-    if (!(start > 0.0) || end >= -accepted * start) return 1.0;
-    double low = 0.0, high = 1.0, at_low = start, at_high = end;
-    for (int k = 0; k < 20; ++k) {
-      const double share = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.1, 0.9);
-      const double now = work(share);
-      if (std::abs(now) <= 0.1 * start) return share;
-      (now > 0.0 ? low : high) = share;
-      (now > 0.0 ? at_low : at_high) = now;
-    }
-    return high;
-  }
-
-  const std::vector<double>& move() const { return move_; }
-  std::vector<ContactGap> gaps(double share) const {
-    std::vector<ContactGap> found;
-    for (std::size_t p = 0; p < gaps_.size(); ++p) {
-      const auto between = [share](double a, double b) { return a + share * (b - a); };
-      found.push_back({between(gaps_[p].normal, gaps_there_[p].normal),
-                       between(gaps_[p].tangential, gaps_there_[p].tangential)});
-    }
-    return found;
-  }
-
- private:
-  static constexpr double accepted = 0.5;  ///< overshoot, of the work at the start
-
-  std::vector<ContactGap> gaps_of(const std::vector<double>& state) const {
-    return model_.contact_spots().gaps(state, model_.contact(), model_.communicator());
-  }
-  /// Of all forces on the move, where this share of it is done.
-  double work(double share) const {
-    const auto answers = model_.contact().answers_to(gaps(share));
-    return driving_ - share * stiffness_ -
-           model_.communicator().sum(
-               model_.contact_spots().work(model_.contact(), answers, at_, moves_, share));
-  }
-
-  const Model& model_;
-  std::vector<double> move_;
-  double driving_ = 0.0;    ///< work of loads and body on the move, at its start
-  double stiffness_ = 0.0;  ///< of the body along the move
-  ContactSpots::Fields at_, moves_;
-  std::vector<ContactGap> gaps_, gaps_there_;
-};
-
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
   for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
   model.stiffness().halo().copy_state(state);
 }
 
-/// Steps 5-7 of 2.4.3: solves until no patch changes its state and the tractions settle.
+/// What friction is to count with after one more solve. At first limits follow at once; then they
+/// wait until the states of all faces have settled for them.
+std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& contact,
+                                const std::vector<ContactGap>& gaps, bool settled, int iteration) {
+  constexpr int follow_at_once = 8;
+  const auto found = contact.limits_at(gaps);
+  if (settled) return friction.next(contact.limits(), found, iteration < follow_at_once ? 1 : 0.5);
+  if (iteration >= follow_at_once) return contact.limits();
+  friction.restart();
+  return found;
+}
+
+/// Steps 5-7 of 2.4.3: solves until the tractions that faces answer with are those that the last
+/// solve counted with.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
-  constexpr int most = 60;
+  constexpr int most = 100, patient = 50;
+  constexpr double hard_cases = 1e-5;               // of the largest traction, where patience ends
+  constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
+  ContactPatches& contact = model.contact();
   SolverReport worst;
+  worst.converged = true;
   set_held(model, given.held, model.state());
-  for (result.contact_iterations = 1; result.contact_iterations <= most;
-       ++result.contact_iterations) {
+  // new faces answer to where they are, so that the first move goes towards balance
+  const auto here = model.contact_spots().gaps(model.state(), contact, model.communicator());
+  if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
+  LimitIteration friction;
+  double weak = firmest;
+  for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
     model.add_contact_forces(given.faces);
     const std::vector<double> from = model.state();
     const SolverReport report = solve_once(model, solver, load_factor, given);
     worst.iterations = std::max(worst.iterations, report.iterations);
     worst.residual = report.residual;
-    worst.converged = true;
     const LineSearch search(model, given.external, from);
     const double share = search.find();
-    if (share < 1.0) {
-      for (std::size_t k = 0; k < from.size(); ++k)
-        model.state()[k] = from[k] + share * search.move()[k];
-    }
-    const ContactPatches::Change change = model.contact().respond(search.gaps(share));
-    const double tolerance = 10 * model.spec().solver.tolerance;
-    if (share == 1.0 && !change.springs && change.traction <= tolerance * change.largest)
-      return worst;
-    if (change.springs) model.build_stiffness();
+    search.go(share, from, model.state());
+    const auto gaps = search.gaps(share);
+    const bool settled = share == 1.0 && contact.settled(gaps);
+    const auto change =
+        contact.respond(gaps, next_limits(friction, contact, gaps, settled, k), share < 1.0);
+    // loose bodies go as far as they like once all else has settled
+    const double before = std::exchange(weak, settled ? std::max(weakest, 0.1 * weak) : firmest);
+    if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
+    if (getenv("DBG"))
+      fprintf(stderr, "it %d share %g springs %d unbalanced %g / %g its %d\n", k, share,
+              change.springs, change.unbalanced, change.largest, report.iterations);
+    const double tolerance = k < patient ? 10 * model.spec().solver.tolerance : hard_cases;
+    if (share == 1.0 && change.unbalanced <= tolerance * change.largest) return worst;
   }
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
@@ -206,6 +163,9 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   const CellStiffness& cells = model.stiffness();
   std::vector<double> product(all, 0.0);
   cells.apply(model.state(), product);
+  std::vector<double> weak(all, 0.0);
+  cells.add_spring_forces(model.state(), weak);
+  for (std::size_t k = 0; k < all; ++k) product[k] -= weak[k];
   result.strain_energy = 0.5 * cells.dot(model.state(), product) + model.contact_energy();
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
   result.supports.assign(all, 0.0);

@@ -138,10 +138,10 @@ double Model::accept_contact() {
   return work;
 }
 
-void Model::build_stiffness() {
+void Model::build_stiffness(double weak_share) {
   cache_.begin_cycle();
   const auto held = supports_.flags(unknowns_.count());
-  const auto weak = springs();
+  const auto weak = springs(weak_share);
   elastic_ = material_.elastic_matrix();
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
   FinestElements elements(basis(), elastic_, cache_, faces);
@@ -199,10 +199,14 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
   build_stiffness();
 }
 
-std::vector<double> Model::springs() const {
-  constexpr double weak = 1e-6;  // of the unknown's own stiffness
+bool Model::has_weak_springs() const {
   const auto held = held_bodies(Holding::sticking);
-  if (std::find(held.begin(), held.end(), 0) == held.end()) return {};
+  return std::find(held.begin(), held.end(), 0) != held.end();
+}
+
+std::vector<double> Model::springs(double weak) const {
+  if (!has_weak_springs()) return {};
+  const auto held = held_bodies(Holding::sticking);
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {

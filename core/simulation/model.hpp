@@ -29,7 +29,9 @@ class Model {
   Model& operator=(const Model&) = delete;
 
   /// Cell stiffness of the cracks as they are now. Collective.
-  void build_stiffness();
+  /// weak_share: of springs that hold loose bodies where they are, as a part of the cells' own
+  /// stiffness.
+  void build_stiffness(double weak_share = 1e-3);
   /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
   /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
@@ -54,6 +56,8 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
+  /// Whether weak springs hold some body: one that at most slides along others.
+  bool has_weak_springs() const;
   /// Numbers of the bodies that neither supports nor touching faces hold.
   std::vector<std::size_t> loose_bodies() const;
   /// Numbers of the bodies in which places (m) lie. Collective.
@@ -116,7 +120,7 @@ class Model {
   std::vector<char> held_bodies(Holding faces) const;
   /// Weak springs for bodies that could move without straining anything: those that at most touch
   /// and slide.
-  std::vector<double> springs() const;
+  std::vector<double> springs(double weak) const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 

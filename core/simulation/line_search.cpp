@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdca {
+
+namespace {
+
+/// Overshoot that does no harm, of the work at the start.
+constexpr double accepted = 0.5;
+
+}  // namespace
+
+LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
+                       const std::vector<double>& from)
+    : model_(model), move_(model.state()) {
+  for (std::size_t k = 0; k < move_.size(); ++k) move_[k] -= from[k];
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> product(move_.size(), 0.0);
+  cells.apply(from, product);
+  for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];
+  cells.add_spring_forces(from, product);
+  driving_ = cells.dot(product, move_);
+  cells.apply(move_, product);
+  std::vector<double> weak(move_.size(), 0.0);
+  cells.add_spring_forces(move_, weak);
+  for (std::size_t k = 0; k < product.size(); ++k) product[k] -= weak[k];
+  stiffness_ = cells.dot(product, move_);
+  at_ = model.contact_spots().fields(from);
+  moves_ = model.contact_spots().fields(move_);
+  gaps_ = gaps_of(from);
+  gaps_there_ = gaps_of(model.state());
+  // the rest of the body, without the faces
+  const auto& spots = model.contact_spots();
+  driving_ += model.communicator().sum(spots.spring_work(model.contact(), at_, moves_));
+  stiffness_ -= model.communicator().sum(spots.spring_work(model.contact(), moves_, moves_));
+}
+
+double LineSearch::find() const {
+  const double start = work(0.0), end = work(1.0);
+  if (!(start > 0.0) || end >= -accepted * start) return 1.0;
+  double low = 0.0, high = 1.0, at_low = start, at_high = end;
+  for (int k = 0; k < 20; ++k) {
+    const double share = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.1, 0.9);
+    const double now = work(share);
+    if (std::abs(now) <= 0.1 * start) return share;
+    (now > 0.0 ? low : high) = share;
+    (now > 0.0 ? at_low : at_high) = now;
+  }
+  return high;
+}
+
+std::vector<ContactGap> LineSearch::gaps(double share) const {
+  std::vector<ContactGap> found;
+  for (std::size_t p = 0; p < gaps_.size(); ++p) {
+    const auto between = [share](double a, double b) { return a + share * (b - a); };
+    found.push_back({between(gaps_[p].normal, gaps_there_[p].normal),
+                     between(gaps_[p].tangential, gaps_there_[p].tangential)});
+  }
+  return found;
+}
+
+void LineSearch::go(double share, const std::vector<double>& from,
+                    std::vector<double>& state) const {
+  if (share == 1.0) return;
+  for (std::size_t k = 0; k < from.size(); ++k) state[k] = from[k] + share * move_[k];
+}
+
+std::vector<ContactGap> LineSearch::gaps_of(const std::vector<double>& state) const {
+  return model_.contact_spots().gaps(state, model_.contact(), model_.communicator());
+}
+
+double LineSearch::work(double share) const {
+  const auto answers = model_.contact().answers_to(gaps(share));
+  return driving_ - share * stiffness_ -
+         model_.communicator().sum(
+             model_.contact_spots().work(model_.contact(), answers, at_, moves_, share));
+}
+
+}  // namespace cdca

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// How far to go towards the next state where faces may change theirs on the way.
+#pragma once
+
+#include "core/simulation/model.hpp"
+
+#include <vector>
+
+namespace cdca {
+
+/// A solve counts with springs that may be the wrong ones where it leads. So one goes from one
+/// state towards the next only to where the forces on the way are in balance, so that faces cannot
+/// be thrown open and shut for ever. Friction keeps to the limits that it has; then the work of all
+/// forces falls along the way.
+class LineSearch {
+ public:
+  /// From a state `from` to that of the model. external: forces of the loads, N/m. Collective.
+  LineSearch(const Model& model, const std::vector<double>& external,
+             const std::vector<double>& from);
+
+  /// Share of the way, from 0 to 1. Collective.
+  double find() const;
+  /// Of all patches there.
+  std::vector<ContactGap> gaps(double share) const;
+  /// Sets a state there.
+  void go(double share, const std::vector<double>& from, std::vector<double>& state) const;
+
+ private:
+  std::vector<ContactGap> gaps_of(const std::vector<double>& state) const;
+  /// Of all forces on the move, where this share of it is done.
+  double work(double share) const;
+
+  const Model& model_;
+  std::vector<double> move_;
+  double driving_ = 0.0;    ///< work of loads and body on the move, at its start
+  double stiffness_ = 0.0;  ///< of the body along the move
+  ContactSpots::Fields at_, moves_;
+  std::vector<ContactGap> gaps_, gaps_there_;
+};
+
+}  // namespace cdca
