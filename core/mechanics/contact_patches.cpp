@@ -148,6 +148,9 @@ std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactG
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const ContactPatch& p = patches_[k];
     answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], p.limit));
+    // the secant of a softening face stays: it never falls short of the work that the face takes
+    if (law_of(p).law == ContactLaw::cohesive && gaps[k].normal > 0.0 && p.gap.normal > 0.0)
+      answers.back().normal_spring = p.now.normal_spring;
   }
   return answers;
 }
@@ -201,10 +204,10 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
                  unbalanced(p, gaps[k], contact_answer(law, p.largest, p.now, gaps[k], found)));
     const ContactAnswer next = contact_answer(law, p.largest, p.now, gaps[k], limits[k]);
     const double before[] = {p.normal_spring(), p.tangential_spring()};
-    damp(p.normal_damping, p.now.normal_spring, next.normal_spring, law.normal_stiffness,
-         held_back);
+    const bool hold = held_back && law.law != ContactLaw::cohesive;
+    damp(p.normal_damping, p.now.normal_spring, next.normal_spring, law.normal_stiffness, hold);
     damp(p.tangential_damping, p.now.tangential_spring, next.tangential_spring,
-         law.tangential_stiffness, held_back);
+         law.tangential_stiffness, hold);
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     p.now = next;
     p.gap = gaps[k];

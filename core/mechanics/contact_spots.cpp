@@ -38,12 +38,13 @@ std::vector<ContactGap> ContactSpots::gaps(std::span<const double> state,
     const ContactSpec& law = patches.law_of(patch);
     const auto field = spot.at.field(spot.geometry, state);
     const auto gap = [&](double spring, double jump, double stress) {
-      if (spring <= 0.0) return jump;
+      if (spring <= 0.0)
+        return jump + (spot.geometry.uses_stress ? spot.at.compliance * stress : 0);
       const SpringTerms terms(spot.geometry, spot.at.compliance, spring);
       return (terms.jump * jump + terms.mixed * stress) / spring;
     };
     // an open cohesive face is a spring of its own; others would close with these
-    const bool pulls = patch.now.state != ContactState::open && patch.gap.normal > 0.0;
+    const bool pulls = law.law == ContactLaw::cohesive && patch.gap.normal > 0.0;
     const double normal = pulls ? patch.now.normal_spring : law.normal_stiffness;
     sums[2 * spot.patch] = gap(normal, field.jump.y(), field.traction.y());
     sums[2 * spot.patch + 1] =

@@ -20,6 +20,7 @@ class LineSearch {
 
   /// Share of the way, from 0 to 1. Collective.
   double find() const;
+  const std::vector<double>& move() const { return move_; }
   /// Of all patches there.
   std::vector<ContactGap> gaps(double share) const;
   /// Sets a state there.

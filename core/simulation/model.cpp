@@ -107,17 +107,20 @@ void Model::close_new_faces() {
 }
 
 std::vector<char> Model::held_bodies(Holding faces) const {
+  // a single face that sticks is a hinge, more are not
+  const int needed = faces == Holding::sticking ? 2 : 1;
   std::vector<char> held;
   for (const Body& body : bodies_->list()) held.push_back(body.held);
   for (bool found = true; found;) {
     found = false;
+    std::vector<int> holding(held.size(), 0);
     for (const ContactPatch& p : contact_.patches()) {
       if (faces != Holding::all && p.now.state == ContactState::open) continue;
-      if (faces == Holding::sticking && p.now.slides()) continue;
+      if (faces == Holding::sticking && p.now.state == ContactState::slip) continue;
       const auto [a, b] = p.bodies;
       if (a < 0 || b < 0 || held[std::size_t(a)] == held[std::size_t(b)]) continue;
-      held[std::size_t(a)] = held[std::size_t(b)] = 1;
-      found = true;
+      const auto loose = std::size_t(held[std::size_t(a)] ? b : a);
+      if (++holding[loose] >= needed) held[loose] = 1, found = true;
     }
   }
   return held;

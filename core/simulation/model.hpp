@@ -56,7 +56,7 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
-  /// Whether weak springs hold some body: one that at most slides along others.
+  /// Whether weak springs hold some body: one that may slide along others or turn.
   bool has_weak_springs() const;
   /// Numbers of the bodies that neither supports nor touching faces hold.
   std::vector<std::size_t> loose_bodies() const;
@@ -118,8 +118,7 @@ class Model {
   enum class Holding { all, touching, sticking };
   /// Whether each body is held: by supports, or by faces of bodies that are.
   std::vector<char> held_bodies(Holding faces) const;
-  /// Weak springs for bodies that could move without straining anything: those that at most touch
-  /// and slide.
+  /// Weak springs for bodies that could move without straining anything.
   std::vector<double> springs(double weak) const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;

@@ -20,6 +20,7 @@ struct SolverReport {
   bool converged = false;
   int iterations = 0;     ///< sweeps of the rule, or steps of CG
   double residual = 0.0;  ///< relative to `scale`
+  double scale = 0.0;     ///< N/m; set by who knows all forces
 };
 
 class EquilibriumSolver {

@@ -59,7 +59,7 @@ CaseSpec random_network(unsigned seed, int cells, int count, Loading loading) {
 /// Seeds differ in grid, number of cracks, step length, kind of loading and number of scales.
 CaseSpec network_of_seed(unsigned seed, Loading loading) {
   std::mt19937 engine(seed);
-  const int cells = 30 + int(engine() % 21), count = 5 + int(engine() % 56);
+  const int cells = 20 + int(engine() % 21), count = 5 + int(engine() % 56);
   CaseSpec spec = random_network(seed, cells, count, loading);
   spec.loading.critical = seed % 2 == 0;
   spec.loading.max_events = 400;
@@ -68,7 +68,7 @@ CaseSpec network_of_seed(unsigned seed, Loading loading) {
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
   if (seed % 5 != 0) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
   spec.load_factors.clear();
-  for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
+  for (int k = 1; k <= 12; ++k) spec.load_factors.push_back(0.5 * k);
   return spec;
 }
 
@@ -82,7 +82,7 @@ void expect_finite(const Summary& s) {
   for (const TipRecord& tip : s.tips) EXPECT_TRUE(std::isfinite(tip.k1) && std::isfinite(tip.k2));
 }
 
-void expect_to_end_well(const CaseSpec& spec) {
+void expect_to_end_well(const CaseSpec& spec, Loading loading) {
   Summary s;
   ASSERT_NO_THROW(s = run_simulation(spec, "test", world(), world_partitioner(), {}));
   std::cout << spec.cracks.size() << " cracks, " << spec.domain.cells[0] << " x "
@@ -94,10 +94,13 @@ void expect_to_end_well(const CaseSpec& spec) {
   double before = 0.0, most = 0.0;
   for (const StepRecord& step : s.steps) {
     most = std::max(most, step.external_work);
-    EXPECT_GE(step.dissipated - step.friction_work, before - 1e-7 * most)
-        << "step " << step.step << ", lost "
-        << (before - step.dissipated + step.friction_work) / most;
-    before = step.dissipated - step.friction_work;
+    const double spent = step.dissipated - step.friction_work;  // external work less strain energy
+    EXPECT_GE(spent, -1e-7 * most) << "step " << step.step;
+    if (loading == Loading::tension) {
+      EXPECT_GE(spent, before - 1e-7 * most)
+          << "step " << step.step << ", lost " << (before - spent) / most;
+    }
+    before = spent;
   }
 }
 
@@ -105,7 +108,8 @@ using Network = std::tuple<unsigned, Loading>;
 
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
 TEST_P(NetworkGrowth, EndsWell) {
-  expect_to_end_well(network_of_seed(std::get<0>(GetParam()), std::get<1>(GetParam())));
+  expect_to_end_well(network_of_seed(std::get<0>(GetParam()), std::get<1>(GetParam())),
+                     std::get<1>(GetParam()));
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth,
                          ::testing::Combine(::testing::Values(1U, 2U),
@@ -114,7 +118,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth,
 
 class SlowNetworkGrowth : public ::testing::TestWithParam<Network> {};
 TEST_P(SlowNetworkGrowth, EndsWell) {
-  expect_to_end_well(network_of_seed(std::get<0>(GetParam()), std::get<1>(GetParam())));
+  expect_to_end_well(network_of_seed(std::get<0>(GetParam()), std::get<1>(GetParam())),
+                     std::get<1>(GetParam()));
 }
 INSTANTIATE_TEST_SUITE_P(Tension, SlowNetworkGrowth,
                          ::testing::Combine(::testing::Range(3U, 43U),
