@@ -28,7 +28,7 @@ double face_length_at(const CutElement& cut, int part, const Vec2& h) {
 }
 
 /// Parts of an element whose compliance is S.
-constexpr double with_stress = 1.0 / 5, without_stress = 1.0 / 100, near_tips = 1.0 / 10;
+constexpr double with_stress = 1.0 / 5, without_stress = 0.0, near_tips = 1.0 / 10;
 
 }  // namespace
 

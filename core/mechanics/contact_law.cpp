@@ -19,22 +19,23 @@ double envelope(const ContactSpec& s, double g) {
   return std::max(0.0, s.cohesive_stiffness * (s.critical_gap - g));
 }
 
-ContactAnswer opened(const ContactSpec& s, double largest, double g) {
+ContactAnswer opened(const ContactSpec& s, double largest, double gap, double secant_at) {
   ContactAnswer a;
   if (s.law != ContactLaw::cohesive) return a;
-  a.largest = std::max(largest, g);
+  a.largest = std::max(largest, secant_at);
   // the secant, so that the solve stays definite; unloading goes to the origin
   const double from = std::max(a.largest, 1e-3 * steep_part * s.critical_gap);
   a.normal_spring = envelope(s, from) / from;
-  a.normal = a.normal_spring * g;
+  a.normal = a.normal_spring * gap;
   if (a.normal_spring > 0.0) a.state = ContactState::stick;
   return a;
 }
 
 }  // namespace
 
-double friction_limit(const ContactSpec& s, double gap) {
-  return gap > 0.0 ? 0.0 : s.friction * s.normal_stiffness * -gap + s.cohesion;
+double limit_at(const ContactSpec& s, double gap) {
+  if (gap > 0.0) return s.law == ContactLaw::cohesive ? s.normal_stiffness * gap : 0.0;
+  return s.friction * s.normal_stiffness * -gap + s.cohesion;
 }
 
 ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactAnswer& before,
@@ -43,7 +44,7 @@ ContactAnswer contact_answer(const ContactSpec& s, double largest, const Contact
   if (s.law == ContactLaw::none) return a;
   const bool open = gap.normal > 0.0;
   if (open) {
-    a = opened(s, largest, gap.normal);
+    a = opened(s, largest, gap.normal, limit / s.normal_stiffness);
     if (s.law == ContactLaw::cohesive) return a;
   } else {
     a.largest = largest;

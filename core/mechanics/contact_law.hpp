@@ -49,8 +49,9 @@ struct ContactAnswer {
 /// Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C over a hundredth of
 /// g_C, softens as Eq. 12 says, and goes back to the origin on unloading. largest: their largest
 /// opening so far, m.
-/// mu |p_N| + c_c at a normal gap (m), Pa.
-double friction_limit(const ContactSpec& spec, double gap);
+/// What an answer keeps to that depends on the normal gap (m), Pa: of friction mu |p_N| + c_c; of
+/// open cohesive faces the opening where their secant is taken, times k_N.
+double limit_at(const ContactSpec& spec, double gap);
 
 ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactAnswer& before,
                              const ContactGap& gap, double limit);

@@ -148,9 +148,6 @@ std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactG
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const ContactPatch& p = patches_[k];
     answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], p.limit));
-    // the secant of a softening face stays: it never falls short of the work that the face takes
-    if (law_of(p).law == ContactLaw::cohesive && gaps[k].normal > 0.0 && p.gap.normal > 0.0)
-      answers.back().normal_spring = p.now.normal_spring;
   }
   return answers;
 }
@@ -174,7 +171,7 @@ std::vector<double> ContactPatches::limits() const {
 std::vector<double> ContactPatches::limits_at(const std::vector<ContactGap>& gaps) const {
   std::vector<double> limits;
   for (std::size_t k = 0; k < patches_.size(); ++k)
-    limits.push_back(friction_limit(law_of(patches_[k]), gaps[k].normal));
+    limits.push_back(limit_at(law_of(patches_[k]), gaps[k].normal));
   return limits;
 }
 
@@ -198,7 +195,7 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     ContactPatch& p = patches_[k];
     const ContactSpec& law = law_of(p);
-    const double found = friction_limit(law, gaps[k].normal);
+    const double found = limit_at(law, gaps[k].normal);
     change.unbalanced =
         std::max(change.unbalanced,
                  unbalanced(p, gaps[k], contact_answer(law, p.largest, p.now, gaps[k], found)));

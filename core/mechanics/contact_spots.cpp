@@ -189,7 +189,9 @@ double ContactSpots::accept(ContactPatches& patches, std::span<const double> sta
   double work = 0.0;
   for (std::size_t k = 0; k < slips.size(); ++k) {
     ContactPatch& p = patches.patches()[k];
-    work += 0.5 * p.length * (p.tangential + p.now.tangential) * (slips[k] - p.slip);
+    // faces that have opened meanwhile are not known to have rubbed
+    if (p.now.state != ContactState::open)
+      work += 0.5 * p.length * (p.tangential + p.now.tangential) * (slips[k] - p.slip);
     p.slip = slips[k];
   }
   return work;

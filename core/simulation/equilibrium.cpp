@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -86,6 +87,26 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
   model.stiffness().halo().copy_state(state);
 }
 
+/// Loose fragments may go from one balance that is nearly one to the next for ever. Where what is
+/// unbalanced has not halved for long, little of it is accepted.
+class Patience {
+ public:
+  /// Of tractions, as a part of the largest one.
+  double tolerance(double unbalanced, double usual) {
+    constexpr int longest = 30;
+    constexpr double little = 1e-3;
+    if (unbalanced < 0.5 * least_) {
+      least_ = unbalanced;
+      since_ = 0;
+    }
+    return ++since_ > longest ? std::max(usual, little) : usual;
+  }
+
+ private:
+  double least_ = std::numeric_limits<double>::infinity();
+  int since_ = 0;
+};
+
 /// Of the forces that weak springs have added in a solve, as a part of all forces: bodies may not
 /// have gone far enough yet.
 double held_back(const Model& model, const LineSearch& search, double scale) {
@@ -112,8 +133,8 @@ std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& 
 /// solve counted with.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
-  constexpr int most = 100, patient = 50;
-  constexpr double hard_cases = 1e-3;               // of the largest traction, where patience ends
+  constexpr int most = 200;
+  Patience patience;
   constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
   ContactPatches& contact = model.contact();
   SolverReport worst;
@@ -144,7 +165,8 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     fprintf(stderr, "it %d share %g springs %d unbalanced %g / %g its %d\n", k, share,
             change.springs, change.unbalanced, change.largest, report.iterations);
-    const double tolerance = k < patient ? 10 * model.spec().solver.tolerance : hard_cases;
+    const double tolerance =
+        patience.tolerance(change.unbalanced, 10 * model.spec().solver.tolerance);
     if (share == 1.0 && change.unbalanced <= tolerance * change.largest && pulled <= tolerance)
       return worst;
   }
