@@ -141,9 +141,10 @@ double Model::accept_contact() {
   return work;
 }
 
-void Model::build_stiffness(double weak_share) {
+void Model::build_stiffness(double weak_share, bool once_loose) {
   cache_.begin_cycle();
   const auto held = supports_.flags(unknowns_.count());
+  find_loose_bodies(once_loose);
   const auto weak = springs(weak_share);
   elastic_ = material_.elastic_matrix();
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
@@ -202,18 +203,18 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
   build_stiffness();
 }
 
-bool Model::has_weak_springs() const {
+void Model::find_loose_bodies(bool once_loose) {
   const auto held = held_bodies(Holding::sticking);
-  return std::find(held.begin(), held.end(), 0) != held.end();
+  loose_.resize(held.size(), 0);
+  for (std::size_t k = 0; k < held.size(); ++k) loose_[k] = !held[k] || (once_loose && loose_[k]);
 }
 
 std::vector<double> Model::springs(double weak) const {
   if (!has_weak_springs()) return {};
-  const auto held = held_bodies(Holding::sticking);
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
-      if (held[bodies_->body_of(n, p)]) continue;
+      if (!loose_[bodies_->body_of(n, p)]) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
       springs[u] = springs[u + 1] = weak;
     }

@@ -31,7 +31,8 @@ class Model {
   /// Cell stiffness of the cracks as they are now. Collective.
   /// weak_share: of springs that hold loose bodies where they are, as a part of the cells' own
   /// stiffness.
-  void build_stiffness(double weak_share = 1e-3);
+  /// once_loose: so are bodies that had such springs before.
+  void build_stiffness(double weak_share = 1e-3, bool once_loose = false);
   /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
   /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
@@ -57,7 +58,9 @@ class Model {
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
   /// Whether weak springs hold some body: one that may slide along others or turn.
-  bool has_weak_springs() const;
+  bool has_weak_springs() const {
+    return std::find(loose_.begin(), loose_.end(), 1) != loose_.end();
+  }
   /// Numbers of the bodies that neither supports nor touching faces hold.
   std::vector<std::size_t> loose_bodies() const;
   /// Numbers of the bodies in which places (m) lie. Collective.
@@ -120,6 +123,7 @@ class Model {
   std::vector<char> held_bodies(Holding faces) const;
   /// Weak springs for bodies that could move without straining anything.
   std::vector<double> springs(double weak) const;
+  void find_loose_bodies(bool once_loose);
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 
@@ -134,6 +138,7 @@ class Model {
   CellUnknowns unknowns_;
   Supports supports_;
   std::unique_ptr<Bodies> bodies_;
+  std::vector<char> loose_;  ///< by body: held by weak springs
   ContactPatches contact_;
   ContactSpots spots_;
   StiffnessCache cache_;
