@@ -123,6 +123,27 @@ TEST(ClosedCracksThat, Slip) {
   EXPECT_GT(crack.share_that(ContactState::slip), 0.999);
 }
 
+/// As under 45 degrees, with crack and load turned so that the crack runs along a grid line.
+TEST(ClosedCracksThat, RunAlongAGridLine) {
+  constexpr double friction = 0.3;
+  ReferenceGeometry geometry;
+  geometry.infinite = true;
+  geometry.cracks.push_back({{{-1, 0}, {1, 0}}, {true, true}});
+  const double exact = 0.5 * (1 - friction) * std::sqrt(pi);
+  for (const double stiffness : {1000.0, 10000.0}) {
+    ReferenceGrid grid = grid_of(geometry);
+    grid.contact_stiffness = stiffness;
+    const SolvedReference solved = solve_reference(
+        geometry, {ReferenceLoad::Kind::stress, {-0.5, -0.5, 0.5}, 0.0, friction}, grid);
+    for (const StressIntensity& tip : solved.tips) {
+      std::cout << "along a grid line, k_N h / E " << stiffness << ": K_II " << tip.k2 << " / "
+                << exact << ", K_I " << tip.k1 << "\n";
+      EXPECT_NEAR(tip.k2, exact, 0.01 * exact);
+      EXPECT_LE(std::abs(tip.k1), 0.02 * exact);
+    }
+  }
+}
+
 /// The single flaw of the paper's section 5.2: m, Pa; material and contact of the paper.
 CaseSpec paper_flaw(int nx, int ny) {
   CaseSpec spec = plate({-0.03, -0.06}, {0.03, 0.06}, nx, ny);
