@@ -103,6 +103,7 @@ std::vector<ExpectedTip> expected_tips(const ReferenceCase& c) {
   const Vec2 only_tip = g.cracks.at(0).points.back();
   if (r.contains("KII_infinite")) return closed_tips(g, r);
   if (r.contains("FI_right")) return half_open_tips(g, r);
+  if (r.contains("FII_abs")) return arc_tips(g, r);
   if (r.contains("FI")) return wing_tips(g, r);
   if (r.contains("KI")) return {tip_of(only_tip, r)};
   if (r.contains("K_over_sigma")) return {{only_tip, r.at("K_over_sigma").get<double>()}};
@@ -110,7 +111,6 @@ std::vector<ExpectedTip> expected_tips(const ReferenceCase& c) {
     return {{only_tip, r.at("F").get<double>() * root_pi * std::sqrt(g.longest())}};
   }
   if (r.contains("F_inner")) return collinear_tips(g, r);
-  if (r.contains("FII_abs")) return arc_tips(g, r);
   std::vector<ExpectedTip> tips;
   if (r.contains("all")) {
     for (const auto& crack : g.cracks) tips.push_back(tip_of(crack.points.back(), r.at("all")));
