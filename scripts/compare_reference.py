@@ -299,14 +299,15 @@ def draw(result, example, path):
                   ylim=(low[1] - margin[1], high[1] + margin[1]))
         first.set_title("cracks (part of the plate, y stretched)", fontsize=10)
     draw_opened(figure, second, result.opened)
+    save_figure(figure, path)
+
+
+def save_figure(figure, path):
+    """With 256 colours: less than half of the bytes."""
     picture = io.BytesIO()
     figure.savefig(picture, dpi=100)
     plt.close(figure)
-    save_small(Image.open(picture).convert("RGB"), path)
-
-
-def save_small(image, path):
-    """With 256 colours: less than half of the bytes."""
+    image = Image.open(picture).convert("RGB")
     palette = image.quantize(256, Image.Quantize.MAXCOVERAGE)
     image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(path, format="png", optimize=True)
 
