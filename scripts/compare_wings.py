@@ -1,17 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts wings of closed cracks beside their reference: tables, and a picture.
+"""Puts wings of closed cracks beside their reference: tables, and pictures.
 
 usage: compare_wings.py PAGE [RESULTS] [--docs]
 
 PAGE     two_cracks, single_flaw or three_flaws: all cases of that page in docs/ that have results
 RESULTS  folder of the result folders; default results
---docs   the tables and the picture go into the page; otherwise the tables are printed, and the
-         picture goes into RESULTS
+--docs   the tables and the pictures go into the page; otherwise the tables are printed, and the
+         pictures go into RESULTS
 
-References are entries of tests/verification/reference/paths.json.
+References are entries of tests/verification/reference/cases.json and paths.json.
 """
 
+import json
 import sys
 from collections import Counter
 from pathlib import Path
@@ -23,26 +24,27 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 
-from compare_reference import GROWN, TOP, Result, fill, nearest, reference_path, save_figure  # noqa: E402
+from compare_reference import (GROWN, REFERENCES, TOP, Result, draw_opened, fill, intensities, nearest,  # noqa: E402
+                               reference_path, save_figure)
 from plot import draw_polygons, finish_axes  # noqa: E402
 from read_vtu import ReadError  # noqa: E402
 
-# case: (name on the page, path of the reference if there is one)
+# case: (name on the page, and where there is one, the reference of its path and of its K_II before growth)
 PAGES = {
     "two_cracks": {
-        "two_cracks": ("105°", "TWO al=45 bb=105 mu=.45 ext"),
-        "two_cracks_90": ("90°", "TWO al=45 bb=90 mu=.45 ext"),
-        "two_cracks_75": ("75°", "TWO al=45 bb=75 mu=.45"),
-        "two_cracks_45": ("45°", None),
+        "two_cracks": ("105°", "TWO al=45 bb=105 mu=.45 ext", "TWOFLAW_a45_b105_mu0.45"),
+        "two_cracks_90": ("90°", "TWO al=45 bb=90 mu=.45 ext", "TWOFLAW_a45_b90_mu0.45"),
+        "two_cracks_75": ("75°", "TWO al=45 bb=75 mu=.45", "TWOFLAW_a45_b75_mu0.45"),
+        "two_cracks_45": ("45°", None, "TWOFLAW_a45_b45_mu0.45"),
     },
     "single_flaw": {
-        "single_flaw": ("no confinement", "SINGLE beta=45 mu=.45 plate60x120"),
-        "single_flaw_unconfined": ("friction 0.3, no confinement", None),
-        "single_flaw_confined": ("friction 0.3, confined", None),
+        "single_flaw": ("friction 0.45", "SINGLE beta=45 mu=.45 plate60x120", "FRIC_b45_mu0.45_s30"),
+        "single_flaw_unconfined": ("friction 0.3", None, "FRIC_b45_mu0.3_s30"),
+        "single_flaw_confined": ("friction 0.3, confined", None, None),
     },
     "three_flaws": {
-        "three_flaws": ("in a row", "THREE 3C-own-1 closed mu=.5"),
-        "three_flaws_echelon": ("in echelon", None),
+        "three_flaws": ("in a row", "THREE 3C-own-1 closed mu=.5", "THREE_3C-own-1_closed"),
+        "three_flaws_echelon": ("in echelon", None, None),
     },
 }
 
@@ -82,10 +84,19 @@ def first_kink(flaw, grown, end):
     return np.rad2deg(np.arctan2(before[0] * after[1] - before[1] * after[0], before @ after))
 
 
+def expected_shear(name):
+    """K_II over the stress of all tips before growth, mm^1/2."""
+    cases = json.loads((REFERENCES / "cases.json").read_text(encoding="utf-8"))["cases"]
+    found = next(case for case in cases if case["id"] == name)["reference"]
+    if "KII_plate60x120" in found:  # of one flaw, both tips
+        return [found["KII_plate60x120"]] * 2
+    return [pair[1] for pair in found.values()]
+
+
 class Case:
     """A result with its wings, in mm from the middle of the plate."""
 
-    def __init__(self, folder, label, reference):
+    def __init__(self, folder, label, reference, shear):
         self.result = Result(folder)
         self.label = label
         domain = self.result.case["domain"]
@@ -95,6 +106,7 @@ class Case:
         self.wings = {(k, end): wing(flaw, self.paths[k], end)
                       for k, flaw in enumerate(self.flaws) for end in (0, 1)}
         self.entry = reference_path(reference) if reference else None
+        self.shear = expected_shear(shear) if shear else None
         self.reference = [np.array(c, float) for c in self.entry["cracks"]] if reference else []
 
     def off_reference(self, tip, low, high):
@@ -119,6 +131,18 @@ class Case:
 
 
 # ---- tables ----
+
+
+def shear_table(cases):
+    """Before anything has grown."""
+    lines = ["| case | crack, end | $K_{II}/\\sigma$, mm$^{1/2}$ | reference | difference | $K_I/K_{II}$ |", "| --- |" + " --- |" * 5]
+    for case in cases:
+        for k, row in enumerate(case.result.first_tips()):
+            k1, k2 = intensities(row) / abs(case.result.tension(1)) * np.sqrt(1e3)
+            exact = case.shear[k] if case.shear else None
+            known = f"{exact:.4f} | {100 * (k2 / exact - 1):+.2f} %" if case.shear else "- | -"
+            lines.append(f"| {case.label} | {row['crack']}, {row['end']} | {k2:.4f} | {known} | {k1 / k2:.3f} |")
+    return [*lines, ""]
 
 
 def wing_table(cases):
@@ -169,6 +193,8 @@ def approach_table(cases):
                 continue
             others = [k for k in range(len(case.paths)) if k != tip[0]]
             gap, k, at = min((distance(case.paths[k], at), k, tuple(at)) for k in others for at in grown)
+            if at == tuple(grown[0]):  # it only goes away
+                continue
             foot = nearest(case.paths[k], np.array(at))
             on_flaw = distance(case.flaws[k], foot) < 1e-3
             lines.append(f"| {case.label} | {tip[0]}, {tip[1]} | {gap:.2f} | {'face' if on_flaw else 'wing'} "
@@ -178,7 +204,7 @@ def approach_table(cases):
 
 def tables(cases):
     size = cases[0].result.case["domain"]["cells"]
-    lines = [f"{size[0]} × {size[1]} elements.", "", *wing_table(cases), *run_table(cases), *approach_table(cases)]
+    lines = [f"{size[0]} × {size[1]} elements.", "", *shear_table(cases), *wing_table(cases), *run_table(cases), *approach_table(cases)]
     return "\n".join(lines)
 
 
@@ -194,7 +220,7 @@ def draw_case(axes, case, window):
     move = case.middle * body.scale
     if case.reference:
         points = np.concatenate(case.reference) * body.scale / 1e3 + move
-        axes.plot(*points.T, "o", ms=3.2, mfc="none", mec="#d62728", mew=0.8, label="reference")
+        axes.plot(*points.T, "o", ms=2.4, mfc="none", mec="#d62728", mew=0.7, label="reference")
     finish_axes(axes, body, body.low, body.high, case.label)
     low, high = window * body.scale / 1e3 + move
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
@@ -207,12 +233,21 @@ def draw(cases, path):
     margin = 0.08 * (window[1] - window[0]).max()
     window += margin * np.array([[-1, -1], [1, 1]])
     wide, high = window[1] - window[0]
-    width = 12.0 / len(cases)
-    figure, panels = plt.subplots(1, len(cases), figsize=(12.0 if len(cases) > 2 else 8.0, 0.9 + (1 if len(cases) > 2 else 8 / 12)
-                                                          * width * high / wide), layout="constrained", squeeze=False)
+    height = min(8.0, 12.0 / len(cases) * high / wide)  # of a panel, inches
+    figure, panels = plt.subplots(1, len(cases), figsize=(len(cases) * (height * wide / high + 0.5), height + 0.8),
+                                  layout="constrained", squeeze=False, sharey=True)
     for axes, case in zip(panels[0], cases):
         draw_case(axes, case, window)
+        axes.label_outer()
     panels[0][0].legend(loc="upper left", fontsize=7)
+    save_figure(figure, path)
+
+
+def draw_shape(case, path):
+    """The loaded plate at the end of a run."""
+    shape = case.result.opened.high - case.result.opened.low
+    figure, axes = plt.subplots(figsize=(7.0 * shape[0] / shape[1] + 2.8, 7.2), layout="constrained")
+    draw_opened(figure, axes, case.result.opened)
     save_figure(figure, path)
 
 
@@ -232,9 +267,11 @@ def main(arguments):
         if options:
             fill(page, text)
             draw(cases, page.with_suffix(".png"))
+            draw_shape(cases[0], page.with_name(page.stem + "-opened.png"))
         else:
             print(text)
             draw(cases, folder / f"{names[0]}.png")
+            draw_shape(cases[0], folder / f"{names[0]}-opened.png")
     except (OSError, ValueError, ReadError) as error:
         print(f"compare_wings.py: {error}", file=sys.stderr)
         return 4
