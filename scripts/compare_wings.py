@@ -202,9 +202,27 @@ def approach_table(cases):
     return lines if len(lines) > 3 else []
 
 
+def length_table(cases):
+    """Length of a wing, mm, over the stress on the top, where the load steps are given."""
+    given = [case for case in cases if case.result.case["loading"].get("mode") != "critical"]
+    if not given:
+        return []
+    lines = ["", "| stress, MPa | " + " | ".join(f"wing, mm: {case.label}" for case in given) + " |", "| --- |" + " --- |" * len(given)]
+    last = min(len(case.result.history) for case in given)
+    for step in sorted({*range(1, last + 1, 4), last}):
+        cells = []
+        for case in given:
+            old = sum(lengths_along(flaw)[-1] for flaw in case.flaws)
+            grown = 1e3 * float(case.result.history[step - 1]["crack_length"]) - old
+            cells.append(f"{round(grown / len(case.wings), 2) + 0.0:.2f}")
+        lines.append(f"| {given[0].stress_at(step):.1f} | " + " | ".join(cells) + " |")
+    return lines
+
+
 def tables(cases):
     size = cases[0].result.case["domain"]["cells"]
-    lines = [f"{size[0]} × {size[1]} elements.", "", *shear_table(cases), *wing_table(cases), *run_table(cases), *approach_table(cases)]
+    lines = [f"{size[0]} × {size[1]} elements.", "", *shear_table(cases), *wing_table(cases), *run_table(cases),
+             *length_table(cases), *approach_table(cases)]
     return "\n".join(lines)
 
 
