@@ -4,7 +4,8 @@
 
 usage: compare_reference.py EXAMPLE [DIR] [--docs]
 
-EXAMPLE  slanted_crack, offset_cracks, t_crack, y_crack, ten_cracks or hundred_cracks
+EXAMPLE  slanted_crack, offset_cracks, t_crack, y_crack, ten_cracks, hundred_cracks,
+         percolation_tension or percolation_compression
 DIR      its result folder; default results/EXAMPLE
 --docs   the tables and the picture go into the page of the example in docs/; otherwise the tables
          are printed, and the picture goes into DIR
@@ -48,6 +49,8 @@ EXAMPLES = {
     "y_crack": dict(tips="Y_plate_8x8_main_2_branches_1_at_-45_uniaxial_y", unit=0.01, symmetry=MIRROR_Y),
     "ten_cracks": dict(tips="BUDYN10_uniaxial", unit=0.1, ages=True),
     "hundred_cracks": dict(ages=True, totals=True),
+    "percolation_tension": dict(ages=True, totals=True),
+    "percolation_compression": dict(ages=True, totals=True),
 }
 
 
@@ -206,6 +209,16 @@ def growth_lines(result):
     return lines
 
 
+def friction_lines(result):
+    """Where faces may touch: work of friction, linear solves."""
+    if "contact" not in result.case:
+        return []
+    solves = [int(row["contact_iterations"]) for row in result.history]
+    return [f"| of it, on friction | {float(result.history[-1]['friction_work']):.4g} J |",
+            f"| contact solves in a step: typical, most | {np.median(solves):.0f}, {max(solves)} |",
+            f"| most iterations of a solve | {max(int(row['solver_iterations']) for row in result.history)} |"]
+
+
 def total_lines(result):
     """What became of many cracks; energies step by step."""
     count = Counter(event["kind"] for event in result.summary["events"] if event["step"] > 0)
@@ -219,7 +232,8 @@ def total_lines(result):
     lines += [f"| events: {kind} | {times} |" for kind, times in sorted(count.items())]
     lines += [f"| largest force on the top | {forces[k] / 1e3:.1f} kN in step {k + 1} |",
               f"| work of the top | {work[-1]:.4g} J |",
-              f"| spent on new cracks | {spent[-1]:.4g} J |",
+              f"| spent on {'friction and ' * ('contact' in result.case)}new cracks | {spent[-1]:.4g} J |",
+              *friction_lines(result),
               f"| least spent in one step | {np.diff(spent, prepend=0.0).min():.2g} J |",
               f"| numbers in tips.csv that are not finite | {int((~np.isfinite(numbers)).sum())} of {len(numbers)} |",
               f"| groups of connected cracks | {network['clusters']} |",
@@ -299,14 +313,15 @@ def draw(result, example, path):
                   ylim=(low[1] - margin[1], high[1] + margin[1]))
         first.set_title("cracks (part of the plate, y stretched)", fontsize=10)
     draw_opened(figure, second, result.opened)
+    save_figure(figure, path)
+
+
+def save_figure(figure, path):
+    """With 256 colours: less than half of the bytes."""
     picture = io.BytesIO()
     figure.savefig(picture, dpi=100)
     plt.close(figure)
-    save_small(Image.open(picture).convert("RGB"), path)
-
-
-def save_small(image, path):
-    """With 256 colours: less than half of the bytes."""
+    image = Image.open(picture).convert("RGB")
     palette = image.quantize(256, Image.Quantize.MAXCOVERAGE)
     image.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(path, format="png", optimize=True)
 

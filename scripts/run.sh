@@ -9,7 +9,7 @@ usage: scripts/run.sh [CASE.toml] [-n RANKS] [-- CDCA_ARGUMENT...]
 Installs what is missing, builds (Release, into build/) and runs a case under mpirun.
 Results go to results/<case name>/ in the project's folder.
 
-  CASE.toml        the case file; default examples/edge_crack.toml
+  CASE.toml        the case file; default examples/two_cracks.toml
   -n, --np RANKS   number of MPI ranks; default 2
   -h, --help       this text
   --               what follows goes to "cdca run" as it is
@@ -46,7 +46,7 @@ done
 [[ $ranks =~ ^[1-9][0-9]*$ ]] || fail "the number of ranks must be a whole number from 1, not '$ranks'"
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-case_file=${case_file:-$top/examples/edge_crack.toml}
+case_file=${case_file:-$top/examples/two_cracks.toml}
 if [[ ! -f $case_file && $case_file != /* && -f $top/$case_file ]]; then
   case_file=$top/$case_file
 fi
