@@ -135,7 +135,18 @@ std::vector<SingularPlace> FaceBasis::tip_places() const {
 
 std::vector<FacePoint> FaceBasis::points(double from, double to,
                                          const std::vector<SingularPlace>& tips) const {
-  if (tips.empty() || !geometry_.uses_stress) return plain_points(face_, geometry_, from, to);
+  if (tips.empty()) return plain_points(face_, geometry_, from, to);
+  if (!geometry_.uses_stress) {
+    // at a tip there is no jump: the middle of the stretch stands for it
+    auto nodes = plain_points(face_, geometry_, from, to);
+    for (FacePoint& p : nodes) {
+      for (const SingularPlace& tip : tips) {
+        if ((p.at - plus_corner_ - tip.at).norm() < 1e-6)
+          p.at = face_.from + 0.5 * (from + to) * (face_.to - face_.from);
+      }
+    }
+    return nodes;
+  }
   const Vec2 a = face_.from + from * (face_.to - face_.from) - plus_corner_;
   const Vec2 b = face_.from + to * (face_.to - face_.from) - plus_corner_;
   std::vector<FacePoint> graded;

@@ -79,14 +79,19 @@ void ContactPatches::add_face(const StructuredGrid& grid, const CrackFace& face,
 }
 
 void ContactPatches::group_patches(double size) {
+  constexpr double rounding = 1e-9;
   for (auto& [place, segment] : segments_) {
-    const auto count = std::max(1.0, std::round((segment.b - segment.a).norm() / size));
+    // odd, and patches between two groups go to the one nearer the middle: so that both halves of
+    // a segment are divided alike
+    const double pairs = std::round(0.5 * ((segment.b - segment.a).norm() / size - 1));
+    const double count = 2 * std::max(0.0, pairs) + 1;
     const std::size_t first = groups_.size();
     groups_.resize(first + std::size_t(count));
     for (const std::size_t k : segment.patches) {
-      const double middle = 0.5 * (patches_[k].from + patches_[k].to);
+      const double middle = 0.5 * (patches_[k].from + patches_[k].to) * count;
+      const double inwards = middle < 0.5 * count ? rounding : -rounding;
       patches_[k].group =
-          first + std::size_t(std::clamp(std::floor(middle * count), 0.0, count - 1));
+          first + std::size_t(std::clamp(std::floor(middle + inwards), 0.0, count - 1));
     }
   }
 }
