@@ -291,8 +291,9 @@ const ContactGroup* touching_group(const ExternalLoads& loads, const std::vector
   const Crack& crack = cracks[std::size_t(zone.crack)];
   const int segment = zone.end == 0 ? 0 : int(crack.segments()) - 1;
   const ContactPatch* patch = loads.contact->find(zone.crack, segment, crack.end_point(zone.end));
-  if (!patch || patch->now.state == ContactState::open) return nullptr;
-  return &loads.contact->group_of(*patch);
+  if (!patch) return nullptr;
+  const ContactGroup& group = loads.contact->group_of(*patch);
+  return group.closed > 0.5 * group.length ? &group : nullptr;
 }
 
 /// K_I that opens the faces at the tip by their mean gap: g(r) = 8 K_I / E' sqrt(r / 2 pi).
