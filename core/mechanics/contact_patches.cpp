@@ -210,15 +210,13 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
     damp(p.normal_damping, p.now.normal_spring, next.normal_spring, law.normal_stiffness, hold);
     damp(p.tangential_damping, p.now.tangential_spring, next.tangential_spring,
          law.tangential_stiffness, hold);
-    change.exerted += std::pow(p.length * std::hypot(next.normal, next.tangential), 2);
+    change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     p.now = next;
     p.gap = gaps[k];
     p.limit = limits[k];
     change.springs = change.springs || differ(before[0], p.normal_spring()) ||
                      differ(before[1], p.tangential_spring());
   }
-  change.unbalanced = std::sqrt(change.unbalanced);
-  change.exerted = std::sqrt(change.exerted);
   find_means();
   return change;
 }

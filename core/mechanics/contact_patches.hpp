@@ -82,8 +82,8 @@ class ContactPatches final : public FaceSprings {
   /// What has changed in the answers of the patches.
   struct Change {
     bool springs = false;     ///< the stiffness
-    double unbalanced = 0.0;  ///< forces that the last solve did not count with, N/m
-    double exerted = 0.0;     ///< all forces of faces; both as roots of sums of squares
+    double unbalanced = 0.0;  ///< largest traction that the last solve did not count with, Pa
+    double largest = 0.0;     ///< largest traction, Pa
   };
   /// Gives all patches new gaps, and the answers to them. held_back: faces that change their state
   /// are held back in the next solves, so that others can go on.

@@ -51,17 +51,7 @@ namespace {
 struct Forces {
   std::vector<double> external;  ///< of the loads
   std::vector<double> faces;     ///< of given tractions between touching faces
-  std::vector<double> anchors;   ///< of weak springs that stand where their bodies were
   std::vector<double> held;      ///< prescribed displacements, m
-
-  explicit Forces(std::size_t unknowns)
-      : external(unknowns, 0.0), faces(external), anchors(external), held(external) {}
-  /// Of everything but the faces.
-  std::vector<double> pulling() const {
-    std::vector<double> sum = external;
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += anchors[k];
-    return sum;
-  }
 };
 
 /// One linear solve with the springs and the given tractions of the touching faces as they are.
@@ -71,9 +61,10 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   const auto own = std::size_t(cells.owned());
   std::vector<double> forces(std::size_t(cells.count()), 0.0), product(forces);
   cells.apply(given.held, product);
-  for (std::size_t k = 0; k < own; ++k)
-    forces[k] = given.external[k] + given.faces[k] + given.anchors[k] - product[k];
+  for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k] - product[k];
+  // weak springs of loose bodies stand where the bodies are
   std::vector<double>& state = model.state();
+  cells.add_spring_forces(state, forces);
   cells.clear_held(forces);
   cells.clear_held(state);
   SolverReport report;
@@ -90,13 +81,6 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   return report;
 }
 
-/// Without contact: fragments stay where they are.
-SolverReport solve_anchored(Model& model, const EquilibriumSolver& solver, double load_factor,
-                            Forces& given) {
-  model.stiffness().add_spring_forces(model.state(), given.anchors);
-  return solve_once(model, solver, load_factor, given);
-}
-
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
   for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
@@ -107,65 +91,31 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
 /// unbalanced has not halved for long, little of it is accepted.
 class Patience {
  public:
-  /// Of unbalanced forces on faces, as a part of all of them.
+  /// Of tractions, as a part of the largest one.
   double tolerance(double unbalanced, double usual) {
-    constexpr double little = 3e-3;
+    constexpr int longest = 30;
+    constexpr double little = 1e-3;
     if (unbalanced < 0.5 * least_) {
       least_ = unbalanced;
       since_ = 0;
     }
-    ++since_;
-    return is_over() ? std::max(usual, little) : usual;
+    return ++since_ > longest ? std::max(usual, little) : usual;
   }
-  bool is_over() const { return since_ > longest; }
 
  private:
-  static constexpr int longest = 30;
   double least_ = std::numeric_limits<double>::infinity();
   int since_ = 0;
 };
 
-/// Fragments are held by weak springs at the places where they were (7 of the method's document).
-/// Bodies that others hold by friction alone, or by a single face, have them too while the states
-/// of faces are not known; their springs follow them a few times, until these pull no more.
-class Anchors {
- public:
-  Anchors(Model& model, Forces& given) : model_(model), given_(given), at_(model.state()) {}
-
-  /// Builds the stiffness with the springs that are needed. once_loose: bodies that had some keep
-  /// them, so that what is looked for does not change from solve to solve.
-  void build(bool once_loose) {
-    model_.build_stiffness(weak_, once_loose);
-    pull();
-  }
-  void pull() {
-    std::fill(given_.anchors.begin(), given_.anchors.end(), 0.0);
-    model_.stiffness().add_spring_forces(at_, given_.anchors);
-  }
-  /// All faces have settled: may the springs stay where they are?
-  bool stay(double scale, double tolerance) {
-    if (!model_.has_weak_springs()) return true;
-    const CellStiffness& cells = model_.stiffness();
-    std::vector<double> pulled(at_.size(), 0.0), moved = model_.state();
-    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] -= at_[k];
-    cells.add_spring_forces(moved, pulled);
-    if (followed_ == most || std::sqrt(cells.dot(pulled, pulled)) <= tolerance * scale) return true;
-    ++followed_;
-    at_ = model_.state();
-    weak_ = weakest;
-    build(true);
-    return false;
-  }
-
- private:
-  static constexpr double firmest = 1e-3, weakest = 1e-4;  // of the cells' own stiffness
-  static constexpr int most = 4;
-  Model& model_;
-  Forces& given_;
-  std::vector<double> at_;
-  double weak_ = firmest;
-  int followed_ = 0;
-};
+/// Of the forces that weak springs have added in a solve, as a part of all forces: bodies may not
+/// have gone far enough yet.
+double held_back(const Model& model, const LineSearch& search, double scale) {
+  if (!model.has_weak_springs() || scale == 0.0) return 0.0;
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> weak(std::size_t(cells.count()), 0.0);
+  cells.add_spring_forces(search.move(), weak);
+  return std::sqrt(cells.dot(weak, weak)) / scale;
+}
 
 /// What friction is to count with after one more solve. At first limits follow at once; then they
 /// wait until the states of all faces have settled for them.
@@ -183,20 +133,18 @@ std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& 
 /// solve counted with.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
-  constexpr int most = 200, strict = 10;
+  constexpr int most = 200;
   Patience patience;
+  constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
   ContactPatches& contact = model.contact();
   SolverReport worst;
   worst.converged = true;
   set_held(model, given.held, model.state());
-  Anchors anchors(model, given);
   // new faces answer to where they are, so that the first move goes towards balance
   const auto here = model.contact_spots().gaps(model.state(), contact, model.communicator());
-  if (contact.respond(here, contact.limits_at(here)).springs)
-    anchors.build(false);
-  else
-    anchors.pull();
+  if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
   LimitIteration friction;
+  double weak = firmest;
   for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
     model.add_contact_forces(given.faces);
@@ -204,19 +152,20 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const SolverReport report = solve_once(model, solver, load_factor, given);
     worst.iterations = std::max(worst.iterations, report.iterations);
     worst.residual = report.residual;
-    const LineSearch search(model, given.pulling(), from);
-    // in between lies what two states of a face are thrown about
-    const double share = (patience.is_over() ? 0.5 : 1.0) * search.find(k < strict ? 0.5 : 0.1);
+    const LineSearch search(model, given.external, from);
+    const double share = search.find();
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
+    const double pulled = held_back(model, search, report.scale);
     const bool settled = share == 1.0 && contact.settled(gaps);
     const auto change =
         contact.respond(gaps, next_limits(friction, contact, gaps, settled, k), share < 1.0);
-    if (change.springs) anchors.build(true);
-    const double tolerance = patience.tolerance(
-        change.unbalanced / std::max(change.exerted, 1e-300), 10 * model.spec().solver.tolerance);
-    if ((share == 1.0 || patience.is_over()) && change.unbalanced <= tolerance * change.exerted &&
-        anchors.stay(report.scale, tolerance))
+    // loose bodies go as far as they like once all else has settled
+    const double before = std::exchange(weak, settled ? std::max(weakest, 0.1 * weak) : weak);
+    if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
+    const double tolerance =
+        patience.tolerance(change.unbalanced, 10 * model.spec().solver.tolerance);
+    if (share == 1.0 && change.unbalanced <= tolerance * change.largest && pulled <= tolerance)
       return worst;
   }
   std::ostringstream text;
@@ -229,7 +178,8 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
 
 Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor) {
   const auto all = std::size_t(model.stiffness().count());
-  Forces given(all);
+  Forces given{std::vector<double>(all, 0.0), std::vector<double>(all, 0.0),
+               std::vector<double>(all, 0.0)};
   fail_together(model.communicator(), [&] {
     // an expression may have no value at some place of one rank
     add_external_forces(model.basis(), model.loads(load_factor), given.external);
@@ -237,7 +187,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   });
   Equilibrium result;
   result.solver = model.contact().empty()
-                      ? solve_anchored(model, solver, load_factor, given)
+                      ? solve_once(model, solver, load_factor, given)
                       : settle_contact(model, solver, load_factor, given, result);
 
   const CellStiffness& cells = model.stiffness();

@@ -6,6 +6,13 @@
 
 namespace cdca {
 
+namespace {
+
+/// Overshoot that does no harm, of the work at the start.
+constexpr double accepted = 0.5;
+
+}  // namespace
+
 LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
                        const std::vector<double>& from)
     : model_(model), move_(model.state()) {
@@ -14,8 +21,12 @@ LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
   std::vector<double> product(move_.size(), 0.0);
   cells.apply(from, product);
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];
+  cells.add_spring_forces(from, product);
   driving_ = cells.dot(product, move_);
   cells.apply(move_, product);
+  std::vector<double> weak(move_.size(), 0.0);
+  cells.add_spring_forces(move_, weak);
+  for (std::size_t k = 0; k < product.size(); ++k) product[k] -= weak[k];
   stiffness_ = cells.dot(product, move_);
   at_ = model.contact_spots().fields(from);
   moves_ = model.contact_spots().fields(move_);
@@ -27,9 +38,9 @@ LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
   stiffness_ -= model.communicator().sum(spots.spring_work(model.contact(), moves_, moves_));
 }
 
-double LineSearch::find(double overshoot) const {
+double LineSearch::find() const {
   const double start = work(0.0), end = work(1.0);
-  if (!(start > 0.0) || end >= -overshoot * start) return 1.0;
+  if (!(start > 0.0) || end >= -accepted * start) return 1.0;
   double low = 0.0, high = 1.0, at_low = start, at_high = end;
   for (int k = 0; k < 20; ++k) {
     const double share = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.1, 0.9);

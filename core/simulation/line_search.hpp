@@ -18,9 +18,9 @@ class LineSearch {
   LineSearch(const Model& model, const std::vector<double>& external,
              const std::vector<double>& from);
 
-  /// Share of the way, from 0 to 1. overshoot: that does no harm, as a part of the work that drives
-  /// the move at its start. Collective.
-  double find(double overshoot) const;
+  /// Share of the way, from 0 to 1. Collective.
+  double find() const;
+  const std::vector<double>& move() const { return move_; }
   /// Of all patches there.
   std::vector<ContactGap> gaps(double share) const;
   /// Sets a state there.

@@ -141,10 +141,9 @@ double Model::accept_contact() {
   return work;
 }
 
-void Model::build_stiffness(double weak_share, bool once_loose) {
+void Model::build_stiffness(double weak_share) {
   cache_.begin_cycle();
   const auto held = supports_.flags(unknowns_.count());
-  find_loose_bodies(once_loose);
   const auto weak = springs(weak_share);
   elastic_ = material_.elastic_matrix();
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
@@ -203,18 +202,18 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
   build_stiffness();
 }
 
-void Model::find_loose_bodies(bool once_loose) {
+bool Model::has_weak_springs() const {
   const auto held = held_bodies(Holding::sticking);
-  loose_.resize(held.size(), 0);
-  for (std::size_t k = 0; k < held.size(); ++k) loose_[k] = !held[k] || (once_loose && loose_[k]);
+  return std::find(held.begin(), held.end(), 0) != held.end();
 }
 
 std::vector<double> Model::springs(double weak) const {
   if (!has_weak_springs()) return {};
+  const auto held = held_bodies(Holding::sticking);
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
-      if (!loose_[bodies_->body_of(n, p)]) continue;
+      if (held[bodies_->body_of(n, p)]) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
       springs[u] = springs[u + 1] = weak;
     }

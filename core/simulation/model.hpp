@@ -31,8 +31,7 @@ class Model {
   /// Cell stiffness of the cracks as they are now. Collective.
   /// weak_share: of springs that hold loose bodies where they are, as a part of the cells' own
   /// stiffness.
-  /// once_loose: so are bodies that had such springs before.
-  void build_stiffness(double weak_share = 1e-3, bool once_loose = false);
+  void build_stiffness(double weak_share = 1e-3);
   /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
   /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
@@ -58,9 +57,7 @@ class Model {
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
   /// Whether weak springs hold some body: one that may slide along others or turn.
-  bool has_weak_springs() const {
-    return std::find(loose_.begin(), loose_.end(), 1) != loose_.end();
-  }
+  bool has_weak_springs() const;
   /// Numbers of the bodies that neither supports nor touching faces hold.
   std::vector<std::size_t> loose_bodies() const;
   /// Numbers of the bodies in which places (m) lie. Collective.
@@ -123,7 +120,6 @@ class Model {
   std::vector<char> held_bodies(Holding faces) const;
   /// Weak springs for bodies that could move without straining anything.
   std::vector<double> springs(double weak) const;
-  void find_loose_bodies(bool once_loose);
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;
 
@@ -138,7 +134,6 @@ class Model {
   CellUnknowns unknowns_;
   Supports supports_;
   std::unique_ptr<Bodies> bodies_;
-  std::vector<char> loose_;  ///< by body: held by weak springs
   ContactPatches contact_;
   ContactSpots spots_;
   StiffnessCache cache_;
