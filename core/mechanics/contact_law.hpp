@@ -43,16 +43,16 @@ struct ContactAnswer {
   bool slides() const { return state == ContactState::slip; }
 };
 
+/// What an answer keeps to that depends on the normal gap (m), Pa: of friction mu |p_N| + c_c; of
+/// open cohesive faces the opening where their secant is taken, times k_N.
+double limit_at(const ContactSpec& spec, double gap);
+
 /// Eq. 10-13 with a return mapping in the tangential direction: in slip the traction keeps the
 /// direction of the trial traction, t = limit p_trial / |p_trial|.
 /// A patch that slid one way sticks before it slides the other way: `before` is its last answer.
 /// Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C over a hundredth of
 /// g_C, softens as Eq. 12 says, and goes back to the origin on unloading. largest: their largest
 /// opening so far, m.
-/// What an answer keeps to that depends on the normal gap (m), Pa: of friction mu |p_N| + c_c; of
-/// open cohesive faces the opening where their secant is taken, times k_N.
-double limit_at(const ContactSpec& spec, double gap);
-
 ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactAnswer& before,
                              const ContactGap& gap, double limit);
 

@@ -22,8 +22,8 @@ struct ContactPatch {
   int segment = 0;
   double from = 0.0;  ///< fractions of the segment
   double to = 1.0;
-  double length = 0.0;  ///< m
-  std::size_t group = 0;
+  double length = 0.0;    ///< m
+  std::size_t group = 0;  ///< number of the stretch over which tractions are read
   ContactAnswer now;
   ContactGap gap;      ///< that `now` is the answer to
   double limit = 0.0;  ///< of friction, Pa: what `now` keeps to
@@ -120,7 +120,7 @@ class ContactPatches final : public FaceSprings {
   std::vector<ContactPatch> patches_;
   std::vector<ContactGroup> groups_;
   std::map<Place, Segment> segments_;
-  /// By element: the first patch of every face.
+  /// By element: the patches of every face.
   std::unordered_map<GlobalId, std::vector<std::vector<std::size_t>>> at_;
   StructuredGrid grid_;
 };
