@@ -60,6 +60,8 @@ inline constexpr auto step_columns = [](auto&& visit) {
       "friction_work", "J", [](auto& r) -> auto& { return r.friction_work; });
   visit(
       "contact_iterations", "", [](auto& r) -> auto& { return r.contact_iterations; });
+  visit(
+      "contact_unbalanced", "", [](auto& r) -> auto& { return r.contact_unbalanced; });
 };
 
 /// A support's force in a step: row i of the steps has the same number of these as every other.

@@ -51,6 +51,7 @@ std::vector<TableCell> history_row(const std::vector<std::string>& reaction_name
   row.push_back({"dissipated", record.dissipated});
   row.push_back({"friction_work", record.friction_work});
   row.push_back({"contact_iterations", record.contact_iterations});
+  row.push_back({"contact_unbalanced", record.contact_unbalanced});
   return row;
 }
 

@@ -39,8 +39,6 @@ struct ContactAnswer {
   double normal_spring = 0.0;
   double tangential_spring = 0.0;
   double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
-
-  bool slides() const { return state == ContactState::slip; }
 };
 
 /// What an answer keeps to that depends on the normal gap (m), Pa: of friction mu |p_N| + c_c; of

@@ -134,7 +134,6 @@ std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& 
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
   constexpr int most = 200;
-  Patience patience;
   constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
   ContactPatches& contact = model.contact();
   SolverReport worst;
@@ -144,6 +143,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   const auto here = model.contact_spots().gaps(model.state(), contact, model.communicator());
   if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
   LimitIteration friction;
+  Patience patience;
   double weak = firmest;
   for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
@@ -163,6 +163,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     // loose bodies go as far as they like once all else has settled
     const double before = std::exchange(weak, settled ? std::max(weakest, 0.1 * weak) : weak);
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
+    result.contact_unbalanced = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
     const double tolerance =
         patience.tolerance(change.unbalanced, 10 * model.spec().solver.tolerance);
     if (share == 1.0 && change.unbalanced <= tolerance * change.largest && pulled <= tolerance)

@@ -12,6 +12,8 @@ std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
 struct Equilibrium {
   SolverReport solver;         ///< of the slowest linear solve
   int contact_iterations = 0;  ///< linear solves until touching faces settled; 0: none touch
+  /// Largest traction of a face that the last solve did not count with, over the largest traction.
+  double contact_unbalanced = 0.0;
   /// Force of the supports of every boundary block on the body, N per metre of thickness.
   std::vector<Vec2> reactions;
   double strain_energy = 0.0;  ///< J per metre of thickness

@@ -73,6 +73,8 @@ void Recorder::solved(const Equilibrium& equilibrium, double seconds) {
   p.linear_solves += std::max(1, equilibrium.contact_iterations);
   contact_iterations_of_step_ =
       std::max(contact_iterations_of_step_, equilibrium.contact_iterations);
+  contact_unbalanced_of_step_ =
+      std::max(contact_unbalanced_of_step_, equilibrium.contact_unbalanced);
   p.solver_iterations = std::max(p.solver_iterations, report.iterations);
   iterations_of_step_ = std::max(iterations_of_step_, report.iterations);
 }
@@ -109,6 +111,7 @@ void Recorder::step(const Model& model, const StepResult& result, const Equilibr
   summary_.performance.output_s += communicator_.max(output.seconds());
   cycle_tips_.clear();
   iterations_of_step_ = contact_iterations_of_step_ = 0;
+  contact_unbalanced_of_step_ = 0.0;
 }
 
 bool Recorder::rest(const Model& model, const EnergyLedger& energy, const Progress& progress,
@@ -165,6 +168,7 @@ StepRecord Recorder::step_record(const Model& model, const StepResult& result, c
   record.dissipated = thickness * energy.dissipated();
   record.friction_work = thickness * energy.friction();
   record.contact_iterations = contact_iterations_of_step_;
+  record.contact_unbalanced = contact_unbalanced_of_step_;
   record.crack_length = model.registry().length();
   record.active_tips = model.registry().active_tips();
   record.growth_cycles = result.growth_cycles;

@@ -60,6 +60,7 @@ class Recorder {
   std::vector<TipRecord> cycle_tips_;
   int iterations_of_step_ = 0;
   int contact_iterations_of_step_ = 0;
+  double contact_unbalanced_of_step_ = 0.0;
   double seconds_before_ = 0.0;  ///< that the run took before it was continued
   bool started_ = false;
   bool left_ = false;  ///< stopped before its end

@@ -59,6 +59,7 @@ struct StepRecord {
   double dissipated = 0.0;     ///< J, external work that is not stored: friction and new cracks
   double friction_work = 0.0;  ///< J, the part that friction took
   int contact_iterations = 0;  ///< most linear solves until touching faces settled; 0: none
+  double contact_unbalanced = 0.0;  ///< worst of the step; see Equilibrium
 };
 
 /// A row of tips.csv, and a tip of summary.json.

@@ -51,7 +51,7 @@ TEST(OutputSummary, HasTheKeysOfTheContract) {
             (Keys{"step", "load_factor", "reaction_x_bottom", "reaction_y_bottom", "reaction_x_top",
                   "reaction_y_top", "strain_energy", "crack_length", "active_tips", "growth_cycles",
                   "solver_iterations", "wall_s", "external_work", "dissipated", "friction_work",
-                  "contact_iterations"}));
+                  "contact_iterations", "contact_unbalanced"}));
 }
 
 TEST(OutputSummary, HoldsTheValuesExactly) {
@@ -110,14 +110,15 @@ TEST(OutputTables, HistoryHasARowPerStep) {
   summary.steps[1].dissipated = 1.5;
   summary.steps[1].friction_work = 0.5;
   summary.steps[1].contact_iterations = 4;
+  summary.steps[1].contact_unbalanced = 1e-3;
   const auto lines = lines_of(history_csv(summary));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0],
             "step,load_factor,reaction_x_bottom,reaction_y_bottom,reaction_x_top,reaction_y_top,"
             "strain_energy,crack_length,active_tips,growth_cycles,solver_iterations,wall_s,"
-            "external_work,dissipated,friction_work,contact_iterations");
-  EXPECT_EQ(lines[1], "1,0.5,0,-10,0,10,1.5,0.012,1,1,40,0.25,0,0,0,0");
-  EXPECT_EQ(lines[2], "2,1,0.1,-20,-0.1,20,6,0.013,1,2,41,0.5,7.5,1.5,0.5,4");
+            "external_work,dissipated,friction_work,contact_iterations,contact_unbalanced");
+  EXPECT_EQ(lines[1], "1,0.5,0,-10,0,10,1.5,0.012,1,1,40,0.25,0,0,0,0,0");
+  EXPECT_EQ(lines[2], "2,1,0.1,-20,-0.1,20,6,0.013,1,2,41,0.5,7.5,1.5,0.5,4,0.001");
 }
 
 TEST(OutputTables, HistoryBeforeTheFirstStepIsItsHeader) {
@@ -127,7 +128,8 @@ TEST(OutputTables, HistoryBeforeTheFirstStepIsItsHeader) {
   summary.reaction_names.clear();
   EXPECT_EQ(lines_of(history_csv(summary))[0],
             "step,load_factor,strain_energy,crack_length,active_tips,growth_cycles,"
-            "solver_iterations,wall_s,external_work,dissipated,friction_work,contact_iterations");
+            "solver_iterations,wall_s,external_work,dissipated,friction_work,contact_iterations,"
+            "contact_unbalanced");
 }
 
 TEST(OutputTables, TipsHaveTheColumnsOfTheContract) {
