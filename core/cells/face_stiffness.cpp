@@ -28,7 +28,7 @@ double face_length_at(const CutElement& cut, int part, const Vec2& h) {
 }
 
 /// Parts of an element whose compliance is S.
-constexpr double with_stress = 1.0 / 5, without_stress = 0.0, near_tips = 1.0 / 10;
+constexpr double with_stress = 1.0 / 5, near_tips = 1.0 / 10;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ FaceGeometry::FaceGeometry(const ElementCuts& cuts, const CrackFace& face,
     shared = std::max({length, face_length_at(*cut, face.plus_part, h),
                        face_length_at(*cut, face.minus_part, h)});
   depth = std::min(h.minCoeff(), (plus + minus) * h.prod() / std::max(shared, 1e-9 * h.minCoeff()));
-  compliance = depth * (uses_stress ? with_stress : without_stress) / elastic(0, 0);
+  compliance = uses_stress ? with_stress * depth / elastic(0, 0) : 0.0;
 }
 
 FaceSpot::Field FaceSpot::field(const FaceGeometry& face, std::span<const double> state) const {

@@ -47,9 +47,8 @@ class FaceSprings {
 ///
 /// Among near-tip functions S is a tenth of that, and shrinks with the distance from the tip, so
 /// that the squares of the singular stresses stay bounded. Stresses beyond a grid line reach
-/// farther than the neighbour cells: along grid lines only a is used, S being the compliance of a
-/// hundredth of the element; the springs stand at the nodes there, so that no tractions oscillate
-/// either.
+/// farther than the neighbour cells: along grid lines S is 0, and the springs stand at the nodes
+/// there, so that no tractions oscillate either.
 struct FaceGeometry {
   FaceGeometry(const ElementCuts& cuts, const CrackFace& face, const ElasticMatrix& elastic);
 
