@@ -38,8 +38,8 @@ double limit_at(const ContactSpec& s, double gap) {
   return s.friction * s.normal_stiffness * -gap + s.cohesion;
 }
 
-ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactAnswer& before,
-                             const ContactGap& gap, double limit) {
+ContactAnswer contact_answer(const ContactSpec& s, double largest, const ContactGap& gap,
+                             double limit) {
   ContactAnswer a;
   if (s.law == ContactLaw::none) return a;
   const bool open = gap.normal > 0.0;
@@ -54,8 +54,7 @@ ContactAnswer contact_answer(const ContactSpec& s, double largest, const Contact
   }
   if (s.law == ContactLaw::frictionless || s.tangential_stiffness <= 0.0) return a;
   const double trial = s.tangential_stiffness * gap.tangential;
-  const bool turns = before.tangential_spring == 0.0 && trial * before.tangential < 0.0;
-  if (turns || std::abs(trial) < limit || (!open && trial == 0.0)) {
+  if (std::abs(trial) < limit || (!open && trial == 0.0)) {
     a.tangential = trial;
     a.tangential_spring = s.tangential_stiffness;
     if (!open) a.state = ContactState::stick;
@@ -66,7 +65,7 @@ ContactAnswer contact_answer(const ContactSpec& s, double largest, const Contact
 }
 
 ContactAnswer touching(const ContactSpec& s) {
-  return s.law == ContactLaw::none ? ContactAnswer() : contact_answer(s, 0.0, {}, {}, 0.0);
+  return s.law == ContactLaw::none ? ContactAnswer() : contact_answer(s, 0.0, {}, 0.0);
 }
 
 }  // namespace cdca

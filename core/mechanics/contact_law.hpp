@@ -47,12 +47,11 @@ double limit_at(const ContactSpec& spec, double gap);
 
 /// Eq. 10-13 with a return mapping in the tangential direction: in slip the traction keeps the
 /// direction of the trial traction, t = limit p_trial / |p_trial|.
-/// A patch that slid one way sticks before it slides the other way: `before` is its last answer.
 /// Cohesive faces: Eq. 12 jumps at g_N = 0; here the traction climbs to k_C g_C over a hundredth of
 /// g_C, softens as Eq. 12 says, and goes back to the origin on unloading. largest: their largest
 /// opening so far, m.
-ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactAnswer& before,
-                             const ContactGap& gap, double limit);
+ContactAnswer contact_answer(const ContactSpec& spec, double largest, const ContactGap& gap,
+                             double limit);
 
 /// Faces that have not been looked at yet: they touch and stick.
 ContactAnswer touching(const ContactSpec& spec);

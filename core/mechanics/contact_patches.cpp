@@ -19,14 +19,6 @@ Key key_of(int crack, const Vec2& a, const Vec2& b) {
 /// Of springs, Pa/m.
 bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(a, b); }
 
-/// Starts at the stiffness of a spring that comes or goes, and fades.
-void damp(double& damping, double before, double next, double stiffness, bool held_back) {
-  constexpr double fading = 0.03, least = 1e-4;
-  const double stiffest = std::max({before, next, damping});
-  damping = held_back && differ(before, next) ? stiffest : fading * damping;
-  if (damping < least * stiffness) damping = 0.0;
-}
-
 }  // namespace
 
 ContactPatches::ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
@@ -143,7 +135,7 @@ std::vector<FaceStretch> ContactPatches::on(GridIndex element, std::size_t face)
     const ContactPatch& p = patches_[own[k]];
     const double share = 1.0 / double(own.size());
     stretches.push_back(
-        {double(k) * share, double(k + 1) * share, p.normal_spring(), p.tangential_spring()});
+        {double(k) * share, double(k + 1) * share, p.now.normal_spring, p.now.tangential_spring});
   }
   return stretches;
 }
@@ -152,7 +144,7 @@ std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactG
   std::vector<ContactAnswer> answers;
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const ContactPatch& p = patches_[k];
-    answers.push_back(contact_answer(law_of(p), p.largest, p.now, gaps[k], p.limit));
+    answers.push_back(contact_answer(law_of(p), p.largest, gaps[k], p.limit));
   }
   return answers;
 }
@@ -160,9 +152,12 @@ std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactG
 bool ContactPatches::settled(const std::vector<ContactGap>& gaps) const {
   const auto answers = answers_to(gaps);
   for (std::size_t k = 0; k < patches_.size(); ++k) {
-    if (differ(answers[k].normal_spring, patches_[k].normal_spring()) ||
-        differ(answers[k].tangential_spring, patches_[k].tangential_spring()))
+    const ContactAnswer &now = patches_[k].now, &next = answers[k];
+    if (differ(next.normal_spring, now.normal_spring) ||
+        differ(next.tangential_spring, now.tangential_spring))
       return false;
+    const bool turned = next.tangential_spring == 0.0 && next.tangential * now.tangential < 0.0;
+    if (turned) return false;
   }
   return true;
 }
@@ -182,20 +177,16 @@ std::vector<double> ContactPatches::limits_at(const std::vector<ContactGap>& gap
 
 double ContactPatches::unbalanced(const ContactPatch& p, const ContactGap& gap,
                                   const ContactAnswer& next) const {
-  // what the last solve counted with: springs from zero, springs that hold back, given tractions
-  const auto exerted = [](double spring, double damped, double traction, double from, double to) {
-    if (damped > spring) return traction + damped * (to - from);
-    return spring > 0.0 ? spring * to : traction;
-  };
-  const double normal =
-      exerted(p.now.normal_spring, p.normal_damping, p.now.normal, p.gap.normal, gap.normal);
-  const double tangential = exerted(p.now.tangential_spring, p.tangential_damping, p.now.tangential,
-                                    p.gap.tangential, gap.tangential);
+  // what the last solve counted with: springs, or given tractions
+  const double normal = p.now.normal_spring * gap.normal;
+  const double tangential = p.now.tangential_spring > 0.0
+                                ? p.now.tangential_spring * gap.tangential
+                                : p.now.tangential;
   return std::max(std::abs(next.normal - normal), std::abs(next.tangential - tangential));
 }
 
 ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& gaps,
-                                               const std::vector<double>& limits, bool held_back) {
+                                               const std::vector<double>& limits) {
   Change change;
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     ContactPatch& p = patches_[k];
@@ -203,19 +194,14 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
     const double found = limit_at(law, gaps[k].normal);
     change.unbalanced =
         std::max(change.unbalanced,
-                 unbalanced(p, gaps[k], contact_answer(law, p.largest, p.now, gaps[k], found)));
-    const ContactAnswer next = contact_answer(law, p.largest, p.now, gaps[k], limits[k]);
-    const double before[] = {p.normal_spring(), p.tangential_spring()};
-    const bool hold = held_back && law.law != ContactLaw::cohesive;
-    damp(p.normal_damping, p.now.normal_spring, next.normal_spring, law.normal_stiffness, hold);
-    damp(p.tangential_damping, p.now.tangential_spring, next.tangential_spring,
-         law.tangential_stiffness, hold);
+                 unbalanced(p, gaps[k], contact_answer(law, p.largest, gaps[k], found)));
+    const ContactAnswer next = contact_answer(law, p.largest, gaps[k], limits[k]);
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
+    change.springs = change.springs || differ(p.now.normal_spring, next.normal_spring) ||
+                     differ(p.now.tangential_spring, next.tangential_spring);
     p.now = next;
     p.gap = gaps[k];
     p.limit = limits[k];
-    change.springs = change.springs || differ(before[0], p.normal_spring()) ||
-                     differ(before[1], p.tangential_spring());
   }
   find_means();
   return change;

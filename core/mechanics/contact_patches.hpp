@@ -27,18 +27,11 @@ struct ContactPatch {
   ContactAnswer now;
   ContactGap gap;      ///< that `now` is the answer to
   double limit = 0.0;  ///< of friction, Pa: what `now` keeps to
-  /// Pa/m, of springs at `gap` that hold faces back that went from one state into another and back
-  double normal_damping = 0.0;
-  double tangential_damping = 0.0;
   /// Of the last accepted equilibrium:
   double slip = 0.0;                  ///< m, that does not come back on unloading; 0 on new faces
   double largest = 0.0;               ///< m, opening so far; cohesive faces
   double tangential = 0.0;            ///< Pa
   std::array<int, 2> bodies{-1, -1};  ///< numbers of the bodies on the plus and the minus side
-
-  /// In the next solve, Pa/m.
-  double normal_spring() const { return std::max(now.normal_spring, normal_damping); }
-  double tangential_spring() const { return std::max(now.tangential_spring, tangential_damping); }
 };
 
 /// A stretch of one segment, about two elements long: over shorter ones the tractions show how the
@@ -77,7 +70,7 @@ class ContactPatches final : public FaceSprings {
   /// Of friction: those that the answers keep to, and those that follow from gaps, Pa.
   std::vector<double> limits() const;
   std::vector<double> limits_at(const std::vector<ContactGap>& gaps) const;
-  /// Would all patches keep their springs at such gaps and the limits that they have?
+  /// Would all patches keep their states at such gaps and the limits that they have?
   bool settled(const std::vector<ContactGap>& gaps) const;
   /// What has changed in the answers of the patches.
   struct Change {
@@ -85,10 +78,8 @@ class ContactPatches final : public FaceSprings {
     double unbalanced = 0.0;  ///< largest traction that the last solve did not count with, Pa
     double largest = 0.0;     ///< largest traction, Pa
   };
-  /// Gives all patches new gaps, and the answers to them. held_back: faces that change their state
-  /// are held back in the next solves, so that others can go on.
-  Change respond(const std::vector<ContactGap>& gaps, const std::vector<double>& limits,
-                 bool held_back = false);
+  /// Gives all patches new gaps, and the answers to them.
+  Change respond(const std::vector<ContactGap>& gaps, const std::vector<double>& limits);
   /// Takes the openings and tractions of this equilibrium into the history.
   void accept();
 

@@ -63,27 +63,49 @@ ContactSpots::Fields ContactSpots::fields(std::span<const double> state) const {
   return found;
 }
 
-double ContactSpots::work(const ContactPatches& patches, const std::vector<ContactAnswer>& answers,
-                          const Fields& at, const Fields& move, double share) const {
+template <class Take>
+double ContactSpots::sum_of_faces(const ContactPatches& patches,
+                                  const std::vector<ContactAnswer>& answers, const Fields& at,
+                                  const Fields& move, double share, const Take& take) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < spots_.size(); ++k) {
     const Spot& spot = spots_[k];
     if (!spot.evaluated) continue;
     const ContactAnswer& answer = answers[spot.patch];
+    const ContactPatch& patch = patches.patches()[spot.patch];
     const double s = spot.geometry.uses_stress ? spot.at.compliance : 0.0;
-    // what a spring exerts, or the given traction
-    const auto add = [&](int axis, double spring, double slip, double given) {
-      const double jump = at[k].jump[axis] + share * move[k].jump[axis] - slip;
-      const double stress = at[k].traction[axis] + share * move[k].traction[axis];
-      const double t =
-          spring > 0.0 ? (jump + s * stress) / (1 / spring + spot.at.compliance) : given;
-      sum += spot.at.weight * (t * (move[k].jump[axis] + s * move[k].traction[axis]) -
-                               s * stress * move[k].traction[axis]);
+    const auto add = [&](int axis, double spring, double stiffness, double slip, double given) {
+      FaceMove face;
+      face.stress = at[k].traction[axis] + share * move[k].traction[axis];
+      face.gap = at[k].jump[axis] + share * move[k].jump[axis] - slip + s * face.stress;
+      face.moved_stress = move[k].traction[axis];
+      face.moved_gap = move[k].jump[axis] + s * face.moved_stress;
+      face.compliance = (stiffness > 0.0 ? 1 / stiffness : 0.0) + spot.at.compliance;
+      face.traction = spring > 0.0 ? face.gap / face.compliance : given;
+      face.body = s;
+      sum += spot.at.weight * take(face);
     };
-    add(1, answer.normal_spring, 0.0, 0.0);
-    add(0, answer.tangential_spring, patches.patches()[spot.patch].slip, answer.tangential);
+    add(1, answer.normal_spring, answer.normal_spring, 0.0, 0.0);
+    add(0, answer.tangential_spring, patches.law_of(patch).tangential_stiffness, patch.slip,
+        answer.tangential);
   }
   return sum;
+}
+
+double ContactSpots::work(const ContactPatches& patches, const std::vector<ContactAnswer>& answers,
+                          const Fields& at, const Fields& move, double share) const {
+  return sum_of_faces(patches, answers, at, move, share, [](const FaceMove& f) {
+    return f.traction * f.moved_gap - f.body * f.stress * f.moved_stress;
+  });
+}
+
+double ContactSpots::stored(const ContactPatches& patches,
+                            const std::vector<ContactAnswer>& answers, const Fields& at,
+                            const Fields& move, double share) const {
+  return sum_of_faces(patches, answers, at, move, share, [](const FaceMove& f) {
+    return f.traction * (f.gap - 0.5 * f.compliance * f.traction) -
+           0.5 * f.body * f.stress * f.stress;
+  });
 }
 
 double ContactSpots::spring_work(const ContactPatches& patches, const Fields& at,
@@ -93,7 +115,7 @@ double ContactSpots::spring_work(const ContactPatches& patches, const Fields& at
     const Spot& spot = spots_[k];
     if (!spot.evaluated) continue;
     const ContactPatch& patch = patches.patches()[spot.patch];
-    const double springs[] = {patch.tangential_spring(), patch.normal_spring()};
+    const double springs[] = {patch.now.tangential_spring, patch.now.normal_spring};
     for (int axis = 0; axis < 2; ++axis) {
       const SpringTerms terms(spot.geometry, spot.at.compliance, springs[axis]);
       const double jump = at[k].jump[axis], stress = at[k].traction[axis];
@@ -110,34 +132,16 @@ void ContactSpots::add_forces(const ContactPatches& patches, LocalId owned,
                               std::span<double> forces) const {
   for (const Spot& spot : spots_) {
     const ContactPatch& patch = patches.patches()[spot.patch];
-    const ContactSpec& law = patches.law_of(patch);
     const double s = spot.at.compliance;
-    Vec2 on_jump(0, 0), on_stress(0, 0);  // tangential, normal
-    // a spring whose zero has moved away, or a given traction
-    const auto add = [&](int axis, double spring, double zero, double given) {
-      const SpringTerms terms(spot.geometry, s, spring);
-      on_jump[axis] = spring > 0.0 ? -zero * terms.jump : given;
-      on_stress[axis] = spring > 0.0 ? -zero * terms.mixed : spot.geometry.uses_stress * s * given;
-    };
-    // a spring that holds back pulls as the face does where it is now
-    const auto zero = [&](double gap, double stiffness, double traction, double spring) {
-      return gap * (1 + stiffness * s) - traction * (1 / spring + s);
-    };
-    const double normal = patch.normal_spring(), tangential = patch.tangential_spring();
-    const bool held = normal != patch.now.normal_spring;
-    const bool held_along = tangential != patch.now.tangential_spring;
-    add(1, normal,
-        held ? zero(patch.gap.normal, law.normal_stiffness, patch.now.normal, normal) : 0.0, 0.0);
-    add(0, tangential,
-        patch.slip + (held_along ? zero(patch.gap.tangential, law.tangential_stiffness,
-                                        patch.now.tangential, tangential)
-                                 : 0.0),
-        patch.now.tangential);
-    if (on_jump.isZero(0.0)) continue;
-    const Vec2& t = spot.geometry.tangent;
-    const Vec2& n = spot.geometry.normal;
-    const Vec2 by_jump = on_jump.x() * t + on_jump.y() * n;
-    const Vec2 by_stress = on_stress.x() * t + on_stress.y() * n;
+    // along the face: a spring whose zero has moved away, or a given traction
+    const double spring = patch.now.tangential_spring, given = patch.now.tangential;
+    const SpringTerms terms(spot.geometry, s, spring);
+    const double on_jump = spring > 0.0 ? -patch.slip * terms.jump : given;
+    if (on_jump == 0.0) continue;
+    const double on_stress =
+        spring > 0.0 ? -patch.slip * terms.mixed : spot.geometry.uses_stress * s * given;
+    const Vec2 by_jump = on_jump * spot.geometry.tangent;
+    const Vec2 by_stress = on_stress * spot.geometry.tangent;
     for (const FaceFunction& f : spot.at.functions) {
       if (f.unknown >= owned) continue;
       const Vec2 force = -spot.at.weight * (f.jump * by_jump + f.traction.transpose() * by_stress);

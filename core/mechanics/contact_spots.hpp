@@ -29,6 +29,10 @@ class ContactSpots {
   /// spots, J per metre of thickness: what faces with these answers exert.
   double work(const ContactPatches& patches, const std::vector<ContactAnswer>& answers,
               const Fields& at, const Fields& move, double share) const;
+  /// What faces with these answers have stored in that state, friction as if it gave its work back;
+  /// J per metre of thickness. `work` is its derivative.
+  double stored(const ContactPatches& patches, const std::vector<ContactAnswer>& answers,
+                const Fields& at, const Fields& move, double share) const;
   /// The same of what the stiffness counts: springs as if nothing had slipped.
   double spring_work(const ContactPatches& patches, const Fields& at, const Fields& move) const;
 
@@ -57,6 +61,18 @@ class ContactSpots {
     int plus_part, minus_part;
     bool evaluated;  ///< by this rank
   };
+
+  /// One direction of a spot on a move, and what its face exerts there.
+  struct FaceMove {
+    double traction;                 ///< Pa
+    double gap, stress;              ///< m, with the body's share, and Pa
+    double moved_gap, moved_stress;  ///< the same of the move
+    double compliance;               ///< of the spring and the body, m/Pa
+    double body;                     ///< of the body alone
+  };
+  template <class Take>
+  double sum_of_faces(const ContactPatches& patches, const std::vector<ContactAnswer>& answers,
+                      const Fields& at, const Fields& move, double share, const Take& take) const;
 
   std::vector<Spot> spots_;
 };

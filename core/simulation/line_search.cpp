@@ -8,8 +8,9 @@ namespace cdca {
 
 namespace {
 
-/// Overshoot that does no harm, of the work at the start.
-constexpr double accepted = 0.5;
+/// A move must release this part of the work that its start promises, and stop where the forces
+/// have fallen to this part of it.
+constexpr double least_released = 1e-3, balanced = 0.1;
 
 }  // namespace
 
@@ -40,12 +41,15 @@ LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
 
 double LineSearch::find() const {
   const double start = work(0.0), end = work(1.0);
-  if (!(start > 0.0) || end >= -accepted * start) return 1.0;
+  if (!(start > 0.0) || end >= 0.0 || released(1.0) >= least_released * start) return 1.0;
+  // halving now and then, since the work may jump where faces turn from one slip to the other
   double low = 0.0, high = 1.0, at_low = start, at_high = end;
-  for (int k = 0; k < 20; ++k) {
-    const double share = low + (high - low) * std::clamp(at_low / (at_low - at_high), 0.1, 0.9);
+  for (int k = 0; k < 100 && high - low > 1e-14 * high; ++k) {
+    const double straight = at_low / (at_low - at_high);
+    const double share = low + (high - low) * (k % 2 == 0 ? straight : 0.5);
     const double now = work(share);
-    if (std::abs(now) <= 0.1 * start) return share;
+    if (std::abs(now) <= balanced * start && released(share) >= least_released * share * start)
+      return share;
     (now > 0.0 ? low : high) = share;
     (now > 0.0 ? at_low : at_high) = now;
   }
@@ -70,6 +74,15 @@ void LineSearch::go(double share, const std::vector<double>& from,
 
 std::vector<ContactGap> LineSearch::gaps_of(const std::vector<double>& state) const {
   return model_.contact_spots().gaps(state, model_.contact(), model_.communicator());
+}
+
+double LineSearch::released(double share) const {
+  const auto& spots = model_.contact_spots();
+  const auto stored = [&](double s) {
+    return spots.stored(model_.contact(), model_.contact().answers_to(gaps(s)), at_, moves_, s);
+  };
+  return share * (driving_ - 0.5 * share * stiffness_) -
+         model_.communicator().sum(stored(share) - stored(0.0));
 }
 
 double LineSearch::work(double share) const {

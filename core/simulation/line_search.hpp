@@ -8,10 +8,11 @@
 
 namespace cdca {
 
-/// A solve counts with springs that may be the wrong ones where it leads. So one goes from one
-/// state towards the next only to where the forces on the way are in balance, so that faces cannot
-/// be thrown open and shut for ever. Friction keeps to the limits that it has; then the work of all
-/// forces falls along the way.
+/// A solve counts with springs that may be the wrong ones where it leads. As long as friction keeps
+/// to the limits that it has, loads, body and faces have a potential, which is convex and has no
+/// jumps in its slope. A move has to lower it; where the whole move does not, one goes to where the
+/// forces on the way are in balance. So faces cannot be thrown from one state into another and back
+/// for ever.
 class LineSearch {
  public:
   /// From a state `from` to that of the model. external: forces of the loads, N/m. Collective.
@@ -30,6 +31,9 @@ class LineSearch {
   std::vector<ContactGap> gaps_of(const std::vector<double>& state) const;
   /// Of all forces on the move, where this share of it is done.
   double work(double share) const;
+  /// What loads, body and faces store less there than at the start: the integral of the work.
+  double released(double share) const;
+  /// Of all forces on the move, where this share of it is done.
 
   const Model& model_;
   std::vector<double> move_;

@@ -203,13 +203,15 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
 }
 
 bool Model::has_weak_springs() const {
-  const auto held = held_bodies(Holding::sticking);
-  return std::find(held.begin(), held.end(), 0) != held.end();
+  for (const Body& body : bodies_->list())
+    if (!body.held) return true;
+  return false;
 }
 
 std::vector<double> Model::springs(double weak) const {
   if (!has_weak_springs()) return {};
-  const auto held = held_bodies(Holding::sticking);
+  std::vector<char> held;
+  for (const Body& body : bodies_->list()) held.push_back(body.held);
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
