@@ -4,7 +4,9 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <deque>
 #include <map>
+#include <utility>
 
 namespace cdca {
 
@@ -53,35 +55,88 @@ std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
   return found;
 }
 
-struct Entry {
-  LocalId row;
-  LocalId column;
-  double value;
+/// Matrices that rows are added up from, in order.
+class Addends {
+ public:
+  void add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix) {
+    made_.push_back(std::move(matrix));
+    addends_.push_back({std::move(unknowns), made_.back().data()});
+  }
+  /// The matrix has to stay.
+  void refer_to(std::vector<LocalId> unknowns, const PlainStiffness& matrix) {
+    addends_.push_back({std::move(unknowns), matrix.data()});
+  }
+
+  /// The rows of all wanted unknowns; entries of ghosts on ghosts are left out. Entries of the same
+  /// place are added up in the order in which they came, so that the sums are bit for bit the same
+  /// whatever the numbers of the unknowns.
+  StiffnessRows rows(const std::vector<char>& wanted, LocalId owned) const;
+
+ private:
+  struct Addend {
+    std::vector<LocalId> unknowns;
+    const double* matrix;  ///< by columns
+  };
+  /// A row of an addend.
+  struct Part {
+    const Addend* addend;
+    std::size_t row;
+  };
+  std::vector<Part> parts_by_unknown(const std::vector<char>& wanted,
+                                     std::vector<std::size_t>& end) const;
+
+  std::deque<Eigen::MatrixXd> made_;
+  std::vector<Addend> addends_;
 };
 
-/// Adds up entries of the same place in the order in which they come, so that the sums are bit for
-/// bit the same whatever the numbers of the unknowns.
-StiffnessRows compress(const std::vector<Entry>& entries, LocalId count) {
-  std::vector<std::size_t> end(std::size_t(count) + 1, 0);
-  for (const Entry& e : entries) ++end[std::size_t(e.row) + 1];
+std::vector<Addends::Part> Addends::parts_by_unknown(const std::vector<char>& wanted,
+                                                     std::vector<std::size_t>& end) const {
+  end.assign(wanted.size() + 1, 0);
+  for (const Addend& a : addends_) {
+    for (const LocalId u : a.unknowns) end[std::size_t(u) + 1] += std::size_t(wanted[std::size_t(u)]);
+  }
   for (std::size_t r = 1; r < end.size(); ++r) end[r] += end[r - 1];
-  std::vector<std::pair<LocalId, double>> sorted(entries.size());
-  for (const Entry& e : entries) sorted[end[std::size_t(e.row)]++] = {e.column, e.value};
-  // end[r] is now the end of row r, which starts at the end of the row before
+  std::vector<Part> parts(end.back());
+  for (const Addend& a : addends_) {
+    for (std::size_t k = 0; k < a.unknowns.size(); ++k) {
+      const auto u = std::size_t(a.unknowns[k]);
+      if (wanted[u]) parts[end[u]++] = {&a, k};
+    }
+  }
+  return parts;  // end[u] is now the end of row u, which starts at the end of the row before
+}
+
+StiffnessRows Addends::rows(const std::vector<char>& wanted, LocalId owned) const {
+  std::vector<std::size_t> end;
+  const auto parts = parts_by_unknown(wanted, end);
+  std::vector<double> sum(wanted.size(), 0.0);
+  std::vector<char> found(wanted.size(), 0);
+  std::vector<LocalId> columns;
   StiffnessRows rows;
-  for (LocalId r = 0; r < count; ++r) {
-    const auto first = sorted.begin() + std::ptrdiff_t(r == 0 ? 0 : end[std::size_t(r) - 1]);
-    const auto last = sorted.begin() + std::ptrdiff_t(end[std::size_t(r)]);
-    if (first == last) continue;
-    std::stable_sort(first, last, [](const auto& s, const auto& t) { return s.first < t.first; });
-    rows.unknown.push_back(r);
-    for (auto e = first; e != last; ++e) {
-      if (e != first && rows.column.back() == e->first) {
-        rows.value.back() += e->second;
-      } else {
-        rows.column.push_back(e->first);
-        rows.value.push_back(e->second);
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    const std::size_t first = r == 0 ? 0 : end[r - 1];
+    if (first == end[r]) continue;
+    const LocalId last = LocalId(r) < owned ? LocalId(wanted.size()) : owned;
+    columns.clear();
+    for (std::size_t p = first; p < end[r]; ++p) {
+      const auto& unknowns = parts[p].addend->unknowns;
+      const double* value = parts[p].addend->matrix + parts[p].row;
+      for (const LocalId c : unknowns) {
+        if (c < last) {
+          const auto at = std::size_t(c);
+          if (!std::exchange(found[at], 1)) columns.push_back(c);
+          sum[at] += *value;
+        }
+        value += unknowns.size();
       }
+    }
+    std::sort(columns.begin(), columns.end());
+    if (columns.empty()) continue;
+    rows.unknown.push_back(LocalId(r));
+    for (const LocalId c : columns) {
+      rows.column.push_back(c);
+      rows.value.push_back(std::exchange(sum[std::size_t(c)], 0.0));
+      found[std::size_t(c)] = 0;
     }
     rows.start.push_back(rows.column.size());
   }
@@ -138,38 +193,25 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
     if (regular[std::size_t(n)]) continue;
     for (const LocalId u : unknowns.of_cell(n)) wanted[std::size_t(u)] = 1;
   }
-  std::vector<Entry> entries;
-  const auto add = [&](LocalId row, LocalId column, double value) {
-    // what ghosts do to ghosts is their owners' business
-    if (wanted[std::size_t(row)] && (row < owned_ || column < owned_)) {
-      entries.push_back({row, column, value});
-    }
-  };
+  Addends addends;
   const auto& special = elements.special();
   auto next_special = special.begin();
   for (const GlobalId id : elements_round_own_rows(mesh, regular)) {
     const GridIndex element = mesh.grid().element_index(id);
     while (next_special != special.end() && *next_special < id) ++next_special;
     if (next_special == special.end() || *next_special != id) {
-      const auto nodes = mesh.element_nodes(element);
-      for (std::size_t a = 0; a < 8; ++a) {
-        const LocalId row = unknowns.of_piece(nodes[a / 2], 0) + LocalId(a % 2);
-        for (std::size_t b = 0; b < 8; ++b) {
-          add(row, unknowns.of_piece(nodes[b / 2], 0) + LocalId(b % 2),
-              elements.plain()(Eigen::Index(a), Eigen::Index(b)));
-        }
+      std::vector<LocalId> of_nodes;
+      for (const LocalId n : mesh.element_nodes(element)) {
+        const LocalId first = unknowns.of_piece(n, 0);
+        of_nodes.insert(of_nodes.end(), {first, first + 1});
       }
+      addends.refer_to(std::move(of_nodes), elements.plain());
       continue;
     }
-    for (const PartStiffness& own : elements.parts(element)) {
-      for (std::size_t a = 0; a < own.unknowns.size(); ++a) {
-        for (std::size_t b = 0; b < own.unknowns.size(); ++b) {
-          add(own.unknowns[a], own.unknowns[b], own.matrix(Eigen::Index(a), Eigen::Index(b)));
-        }
-      }
-    }
+    for (PartStiffness& own : elements.parts(element))
+      addends.add(std::move(own.unknowns), std::move(own.matrix));
   }
-  rows_ = compress(entries, count_);
+  rows_ = addends.rows(wanted, owned_);
 }
 
 void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {
