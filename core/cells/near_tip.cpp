@@ -14,8 +14,8 @@ constexpr double largest_bend = 110.0 / 180.0 * pi;
 }  // namespace
 
 NearTipValues near_tip_functions(const TipPolar& p) {
-  const double root = std::sqrt(p.r), s = std::sin(p.theta), c = std::cos(p.theta);
-  const double s2 = std::sin(p.theta / 2), c2 = std::cos(p.theta / 2);
+  const double root = std::sqrt(p.r), s2 = std::sin(p.theta / 2), c2 = std::cos(p.theta / 2);
+  const double s = 2 * s2 * c2, c = c2 * c2 - s2 * s2;
   const std::array<double, 4> angular{s2, c2, s * s2, s * c2};
   const std::array<double, 4> derivative{c2 / 2, -s2 / 2, c * s2 + s * c2 / 2, c * c2 - s * s2 / 2};
   NearTipValues f;
@@ -96,8 +96,14 @@ TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
   if (polar.r == 0.0) return polar;
   const Bend b = bend(polar.r);
   const double g = angle_from_crack(d, b, side);
-  polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
   const Vec2 radial = (x - tip()) / polar.r;
+  if (b.angle == 0.0 && b.slope == 0.0) {  // straight
+    polar.theta = g;
+    polar.grad_r = radial;
+    polar.grad_theta = turned_left(radial) / polar.r;
+    return polar;
+  }
+  polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
   const double by_g = 1 - b.angle * std::sin(g) / 2, by_bend = (1 + std::cos(g)) / 2;
   polar.grad_r = radial;
   polar.grad_theta = by_g / polar.r * turned_left(radial) + b.slope * (by_bend - by_g) * radial;

@@ -156,8 +156,9 @@ class TipIntegral {
       if (r == 0.0) continue;
       const Vec2 dq = axes_ * q.gradient(point.at);
       const ActualField field = flat ? ActualField{} : actual(basis, point.at);
+      const double angle = zone_.frame.angle(x);
       for (int mode = 0; mode < 2; ++mode) {
-        const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
+        const auto aux = williams_field(material_, mode + 1, r, angle);
         if (!flat) m[mode] += w * flux(field, aux).dot(dq);
         if (loads_.body) {
           m[mode] -= w * q.value(point.at) * Vec2(axes_ * loads_.body(x)).dot(aux.gradient.col(0));
@@ -224,8 +225,9 @@ class TipIntegral {
       const Vec2 inside = point.at + shift;
       const ActualField field = straight ? ActualField{} : actual(basis, point.at, &inside);
       const double w = point.weight * along.norm() * q.value(point.at);
+      const double angle = zone_.frame.angle(x, side);
       for (int mode = 0; mode < 2; ++mode) {
-        const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x, side));
+        const auto aux = williams_field(material_, mode + 1, r, angle);
         m[mode] -= w * (straight ? t.dot(aux.gradient.col(0))
                                  : flux_out(field, aux, -sign * axes_ * n, t));
       }
@@ -258,8 +260,9 @@ class TipIntegral {
         const ActualField field = actual(basis, point.at);
         const Vec2 t = loads_.held_sides[std::size_t(side)] ? Vec2(field.stress * normal)
                                                             : traction_on(side, x);
+        const double angle = zone_.frame.angle(x);
         for (int mode = 0; mode < 2; ++mode) {
-          const auto aux = williams_field(material_, mode + 1, r, zone_.frame.angle(x));
+          const auto aux = williams_field(material_, mode + 1, r, angle);
           m[mode] -= point.weight * length * q.value(point.at) * flux_out(field, aux, normal, t);
         }
       }
