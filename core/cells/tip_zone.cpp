@@ -78,26 +78,6 @@ void flood(const ElementCuts& cuts, GridIndex start, int part, TipZone& zone) {
   }
 }
 
-/// Distance of a tip from the rim and from all other cracks, m.
-double room_of(const StructuredGrid& grid, const std::vector<Crack>& cracks, const PathTip& tip) {
-  const Vec2 x = grid.from_grid(tip.at);
-  const Vec2 low = x - grid.origin(), high = grid.origin() + grid.size() - x;
-  double room = std::min(low.minCoeff(), high.minCoeff());
-  for (const Crack& crack : cracks) {
-    if (&crack == &cracks[std::size_t(tip.crack)]) continue;
-    for (std::size_t k = 0; k < crack.segments(); ++k)
-      room = std::min(room, distance_to_segment(crack.points[k], crack.points[k + 1], x));
-  }
-  return room;
-}
-
-/// Where others are this near, the plain functions of a few elements cannot follow the field.
-double radius_with_room(const StructuredGrid& grid, double room, double tip_radius) {
-  constexpr double little = 2 + 1e-6, wide = 3;  // elements
-  const double h = grid.element_size().maxCoeff();
-  return room < little * h ? std::max(tip_radius, wide * h) : tip_radius;
-}
-
 TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& tip,
                   double tip_radius) {
   const StructuredGrid& grid = cuts.grid();
@@ -136,9 +116,7 @@ std::vector<TipZone> find_tip_zones(const ElementCuts& cuts, const std::vector<C
                                     double tip_radius) {
   std::vector<TipZone> zones;
   for (const PathTip& tip : cuts.paths().tips()) {
-    const double room = room_of(cuts.grid(), cracks, tip);
-    zones.push_back(make_zone(cuts, cracks[std::size_t(tip.crack)], tip,
-                              radius_with_room(cuts.grid(), room, tip_radius)));
+    zones.push_back(make_zone(cuts, cracks[std::size_t(tip.crack)], tip, tip_radius));
   }
   return zones;
 }

@@ -30,7 +30,7 @@ struct TipZone {
 /// The zones of all active tips, the same on every rank: in order of crack and end.
 ///
 /// Cells: the corners of every element that holds the tip (also on its rim), and all nodes within
-/// tip_radius (m), or within 3 elements where another crack or the rim is nearer than 2 elements. Left out are nodes whose support reaches to where the functions would open
+/// tip_radius (m). Left out are nodes whose support reaches to where the functions would open
 /// uncracked material (TipFrame::valid_radius) and nodes with no part of their support in reach.
 std::vector<TipZone> find_tip_zones(const ElementCuts& cuts, const std::vector<Crack>& cracks,
                                     double tip_radius);

@@ -42,10 +42,6 @@ Vec2 foot_on(const Vec2& a, const Vec2& b, const Vec2& x) {
   return a + nearest_fraction(a, b, x) * (b - a);
 }
 
-double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
-  return (foot_on(a, b, x) - x).norm();
-}
-
 Vec2 end_or_place(const Vec2& a, const Vec2& b, const Vec2& x, double touch) {
   const double to_a = (x - a).norm(), to_b = (x - b).norm();
   if (std::min(to_a, to_b) > touch) return x;

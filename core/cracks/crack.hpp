@@ -45,8 +45,6 @@ struct Crack {
 double nearest_fraction(const Vec2& a, const Vec2& b, const Vec2& x);
 /// That point itself.
 Vec2 foot_on(const Vec2& a, const Vec2& b, const Vec2& x);
-/// How far x is from the segment, m.
-double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x);
 /// x, or the end of the segment that is nearer to it than `touch`.
 Vec2 end_or_place(const Vec2& a, const Vec2& b, const Vec2& x, double touch);
 

@@ -56,6 +56,10 @@ class DomainWeight {
   std::array<double, 4> at_corner_{};
 };
 
+double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
+  return (a + nearest_fraction(a, b, x) * (b - a) - x).norm();
+}
+
 /// Does a segment prolong the straight crack behind the tip? To it, that is no other crack.
 bool prolongs(const TipFrame& frame, const Vec2& a, const Vec2& b, double limit) {
   const Vec2 p = frame.local(a), q = frame.local(b);
