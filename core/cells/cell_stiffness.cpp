@@ -93,7 +93,8 @@ std::vector<Addends::Part> Addends::parts_by_unknown(const std::vector<char>& wa
                                                      std::vector<std::size_t>& end) const {
   end.assign(wanted.size() + 1, 0);
   for (const Addend& a : addends_) {
-    for (const LocalId u : a.unknowns) end[std::size_t(u) + 1] += std::size_t(wanted[std::size_t(u)]);
+    for (const LocalId u : a.unknowns)
+      end[std::size_t(u) + 1] += std::size_t(wanted[std::size_t(u)]);
   }
   for (std::size_t r = 1; r < end.size(); ++r) end[r] += end[r - 1];
   std::vector<Part> parts(end.back());

@@ -179,9 +179,8 @@ double ContactPatches::unbalanced(const ContactPatch& p, const ContactGap& gap,
                                   const ContactAnswer& next) const {
   // what the last solve counted with: springs, or given tractions
   const double normal = p.now.normal_spring * gap.normal;
-  const double tangential = p.now.tangential_spring > 0.0
-                                ? p.now.tangential_spring * gap.tangential
-                                : p.now.tangential;
+  const double tangential =
+      p.now.tangential_spring > 0.0 ? p.now.tangential_spring * gap.tangential : p.now.tangential;
   return std::max(std::abs(next.normal - normal), std::abs(next.tangential - tangential));
 }
 
@@ -192,9 +191,8 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
     ContactPatch& p = patches_[k];
     const ContactSpec& law = law_of(p);
     const double found = limit_at(law, gaps[k].normal);
-    change.unbalanced =
-        std::max(change.unbalanced,
-                 unbalanced(p, gaps[k], contact_answer(law, p.largest, gaps[k], found)));
+    change.unbalanced = std::max(
+        change.unbalanced, unbalanced(p, gaps[k], contact_answer(law, p.largest, gaps[k], found)));
     const ContactAnswer next = contact_answer(law, p.largest, gaps[k], limits[k]);
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     change.springs = change.springs || differ(p.now.normal_spring, next.normal_spring) ||

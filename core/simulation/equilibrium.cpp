@@ -122,7 +122,7 @@ double held_back(const Model& model, const LineSearch& search, double scale) {
 /// wait until the states of all faces have settled for them.
 std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& contact,
                                 const std::vector<ContactGap>& gaps, bool settled, int iteration) {
-  static const int follow_at_once = getenv("XFOL") ? atoi(getenv("XFOL")) : 8;
+  constexpr int follow_at_once = 20;
   const auto found = contact.limits_at(gaps);
   if (settled) return friction.next(contact.limits(), found, iteration < follow_at_once ? 1 : 0.5);
   if (iteration >= follow_at_once) return contact.limits();
@@ -134,7 +134,7 @@ std::vector<double> next_limits(LimitIteration& friction, const ContactPatches& 
 /// solve counted with.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             Forces& given, Equilibrium& result) {
-  constexpr int most = 200;
+  constexpr int most = 500;
   constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
   // weak springs must not turn small errors into long ways
   const double tolerance = model.spec().solver.tolerance;
@@ -162,16 +162,11 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const auto gaps = search.gaps(share);
     const double pulled = held_back(model, search, report.scale);
     const bool settled = share == 1.0 && contact.settled(gaps);
-    const auto change =
-        contact.respond(gaps, next_limits(friction, contact, gaps, settled, k));
+    const auto change = contact.respond(gaps, next_limits(friction, contact, gaps, settled, k));
     // bodies that only others hold are let go little by little
     const double before = std::exchange(weak, share == 1.0 ? std::max(weakest, 0.3 * weak) : weak);
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     result.contact_unbalanced = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
-    if (getenv("CDCA_DEBUG_CONTACT") && model.communicator().rank() == 0)
-      std::fprintf(stderr, "  s %.6g k %d share %.3g settled %d unb %.2e pulled %.1e weak %.0e %d\n",
-                   load_factor, k, share, settled, result.contact_unbalanced, pulled, weak,
-                   report.iterations);
     const double enough = patience.tolerance(change.unbalanced, 10 * tolerance);
     if (share == 1.0 && change.unbalanced <= enough * change.largest && pulled <= enough)
       return worst;

@@ -107,20 +107,16 @@ void Model::close_new_faces() {
 }
 
 std::vector<char> Model::held_bodies(Holding faces) const {
-  // a single face that sticks is a hinge, more are not
-  const int needed = faces == Holding::sticking ? 2 : 1;
   std::vector<char> held;
   for (const Body& body : bodies_->list()) held.push_back(body.held);
   for (bool found = true; found;) {
     found = false;
-    std::vector<int> holding(held.size(), 0);
     for (const ContactPatch& p : contact_.patches()) {
       if (faces != Holding::all && p.now.state == ContactState::open) continue;
-      if (faces == Holding::sticking && p.now.state == ContactState::slip) continue;
       const auto [a, b] = p.bodies;
       if (a < 0 || b < 0 || held[std::size_t(a)] == held[std::size_t(b)]) continue;
-      const auto loose = std::size_t(held[std::size_t(a)] ? b : a);
-      if (++holding[loose] >= needed) held[loose] = 1, found = true;
+      held[std::size_t(held[std::size_t(a)] ? b : a)] = 1;
+      found = true;
     }
   }
   return held;
@@ -203,19 +199,16 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
 }
 
 bool Model::has_weak_springs() const {
-  for (const Body& body : bodies_->list())
-    if (!body.held) return true;
-  return false;
+  const auto& bodies = bodies_->list();
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return !b.held; });
 }
 
 std::vector<double> Model::springs(double weak) const {
   if (!has_weak_springs()) return {};
-  std::vector<char> held;
-  for (const Body& body : bodies_->list()) held.push_back(body.held);
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
-      if (held[bodies_->body_of(n, p)]) continue;
+      if (bodies_->list()[bodies_->body_of(n, p)].held) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
       springs[u] = springs[u + 1] = weak;
     }

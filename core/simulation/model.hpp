@@ -56,7 +56,7 @@ class Model {
 
   /// Bodies into which the cracks have cut the grid.
   const Bodies& bodies() const { return *bodies_; }
-  /// Whether weak springs hold some body: one that may slide along others or turn.
+  /// Whether weak springs hold some body: one that supports alone do not stop.
   bool has_weak_springs() const;
   /// Numbers of the bodies that neither supports nor touching faces hold.
   std::vector<std::size_t> loose_bodies() const;
@@ -115,10 +115,10 @@ class Model {
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;
   /// Faces that count as holding one body to another.
-  enum class Holding { all, touching, sticking };
+  enum class Holding { all, touching };
   /// Whether each body is held: by supports, or by faces of bodies that are.
   std::vector<char> held_bodies(Holding faces) const;
-  /// Weak springs for bodies that could move without straining anything.
+  /// Weak springs for bodies that supports alone leave free to move.
   std::vector<double> springs(double weak) const;
   void refuse_hidden_cracks() const;
   void refuse_loose_bodies() const;

@@ -61,7 +61,9 @@ CaseSpec random_network(unsigned seed, int cells, int count, Loading loading) {
 /// Seeds differ in grid, number of cracks, step length, kind of loading and number of scales.
 CaseSpec network_of_seed(unsigned seed, Loading loading) {
   std::mt19937 engine(seed);
-  const int cells = (loading == Loading::tension ? 30 : 20) + int(engine() % (loading == Loading::tension ? 21 : 11)), count = 5 + int(engine() % 56);
+  const int cells = (loading == Loading::tension ? 30 : 20) +
+                    int(engine() % (loading == Loading::tension ? 21 : 11)),
+            count = 5 + int(engine() % 56);
   CaseSpec spec = random_network(seed, cells, count, loading);
   spec.loading.critical = seed % 2 == 0;
   spec.loading.max_events = 400;
