@@ -61,6 +61,6 @@ struct CellWeight {
 /// receive. Grids of more than max_blocks cells are partitioned by blocks of several cells.
 BlockPartition partition_cells(const StructuredGrid& grid, const std::vector<CellWeight>& weights,
                                Communicator& communicator, const Partitioner& partitioner,
-                               int max_blocks = 40000);
+                               int max_blocks = 8000);
 
 }  // namespace cdca
