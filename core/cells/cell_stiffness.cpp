@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <utility>
 
@@ -55,109 +54,7 @@ std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
   return found;
 }
 
-/// Matrices that rows are added up from, in order.
-class Addends {
- public:
-  void add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix) {
-    made_.push_back(std::move(matrix));
-    addends_.push_back({std::move(unknowns), made_.back().data()});
-  }
-  /// The matrix has to stay.
-  void refer_to(std::vector<LocalId> unknowns, const PlainStiffness& matrix) {
-    addends_.push_back({std::move(unknowns), matrix.data()});
-  }
-
-  /// The rows of all wanted unknowns; entries of ghosts on ghosts are left out. Entries of the same
-  /// place are added up in the order in which they came, so that the sums are bit for bit the same
-  /// whatever the numbers of the unknowns.
-  StiffnessRows rows(const std::vector<char>& wanted, LocalId owned) const;
-
- private:
-  struct Addend {
-    std::vector<LocalId> unknowns;
-    const double* matrix;  ///< by columns
-  };
-  /// A row of an addend.
-  struct Part {
-    const Addend* addend;
-    std::size_t row;
-  };
-  std::vector<Part> parts_by_unknown(const std::vector<char>& wanted,
-                                     std::vector<std::size_t>& end) const;
-
-  std::deque<Eigen::MatrixXd> made_;
-  std::vector<Addend> addends_;
-};
-
-std::vector<Addends::Part> Addends::parts_by_unknown(const std::vector<char>& wanted,
-                                                     std::vector<std::size_t>& end) const {
-  end.assign(wanted.size() + 1, 0);
-  for (const Addend& a : addends_) {
-    for (const LocalId u : a.unknowns)
-      end[std::size_t(u) + 1] += std::size_t(wanted[std::size_t(u)]);
-  }
-  for (std::size_t r = 1; r < end.size(); ++r) end[r] += end[r - 1];
-  std::vector<Part> parts(end.back());
-  for (const Addend& a : addends_) {
-    for (std::size_t k = 0; k < a.unknowns.size(); ++k) {
-      const auto u = std::size_t(a.unknowns[k]);
-      if (wanted[u]) parts[end[u]++] = {&a, k};
-    }
-  }
-  return parts;  // end[u] is now the end of row u, which starts at the end of the row before
-}
-
-StiffnessRows Addends::rows(const std::vector<char>& wanted, LocalId owned) const {
-  std::vector<std::size_t> end;
-  const auto parts = parts_by_unknown(wanted, end);
-  std::vector<double> sum(wanted.size(), 0.0);
-  std::vector<char> found(wanted.size(), 0);
-  std::vector<LocalId> columns;
-  StiffnessRows rows;
-  for (std::size_t r = 0; r < wanted.size(); ++r) {
-    const std::size_t first = r == 0 ? 0 : end[r - 1];
-    if (first == end[r]) continue;
-    const LocalId last = LocalId(r) < owned ? LocalId(wanted.size()) : owned;
-    columns.clear();
-    for (std::size_t p = first; p < end[r]; ++p) {
-      const auto& unknowns = parts[p].addend->unknowns;
-      const double* value = parts[p].addend->matrix + parts[p].row;
-      for (const LocalId c : unknowns) {
-        if (c < last) {
-          const auto at = std::size_t(c);
-          if (!std::exchange(found[at], 1)) columns.push_back(c);
-          sum[at] += *value;
-        }
-        value += unknowns.size();
-      }
-    }
-    std::sort(columns.begin(), columns.end());
-    if (columns.empty()) continue;
-    rows.unknown.push_back(LocalId(r));
-    for (const LocalId c : columns) {
-      rows.column.push_back(c);
-      rows.value.push_back(std::exchange(sum[std::size_t(c)], 0.0));
-      found[std::size_t(c)] = 0;
-    }
-    rows.start.push_back(rows.column.size());
-  }
-  return rows;
-}
-
 }  // namespace
-
-double StiffnessRows::times(std::size_t row, std::span<const double> x, LocalId end) const {
-  double sum = 0.0;
-  for (std::size_t k = start[row]; k < start[row + 1]; ++k) {
-    if (column[k] < end) sum += value[k] * x[std::size_t(column[k])];
-  }
-  return sum;
-}
-
-std::ptrdiff_t StiffnessRows::find(LocalId u) const {
-  const auto it = std::lower_bound(unknown.begin(), unknown.end(), u);
-  return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
-}
 
 CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns,
                              ElementStiffness& elements, const std::vector<char>& held,
@@ -194,7 +91,7 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
     if (regular[std::size_t(n)]) continue;
     for (const LocalId u : unknowns.of_cell(n)) wanted[std::size_t(u)] = 1;
   }
-  Addends addends;
+  RowSum sum;
   const auto& special = elements.special();
   auto next_special = special.begin();
   for (const GlobalId id : elements_round_own_rows(mesh, regular)) {
@@ -206,13 +103,13 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
         const LocalId first = unknowns.of_piece(n, 0);
         of_nodes.insert(of_nodes.end(), {first, first + 1});
       }
-      addends.refer_to(std::move(of_nodes), elements.plain());
+      sum.refer_to(std::move(of_nodes), elements.plain());
       continue;
     }
     for (PartStiffness& own : elements.parts(element))
-      addends.add(std::move(own.unknowns), std::move(own.matrix));
+      sum.add(std::move(own.unknowns), std::move(own.matrix));
   }
-  rows_ = addends.rows(wanted, owned_);
+  rows_ = sum.rows(wanted, owned_);
 }
 
 void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {

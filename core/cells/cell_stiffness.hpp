@@ -8,24 +8,12 @@
 #include "core/cells/cell_group.hpp"
 #include "core/cells/element_stiffness.hpp"
 #include "core/cells/regular_runs.hpp"
+#include "core/cells/stiffness_rows.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace cdca {
-
-/// Rows of own stiffness: for each listed unknown the unknowns that it is coupled to.
-struct StiffnessRows {
-  std::vector<LocalId> unknown;  ///< one per row, ascending
-  std::vector<std::size_t> start{0};
-  std::vector<LocalId> column;
-  std::vector<double> value;
-
-  /// Sum of value times x of one row, over the columns below `end`.
-  double times(std::size_t row, std::span<const double> x, LocalId end) const;
-  /// Row number of an unknown, or -1.
-  std::ptrdiff_t find(LocalId unknown) const;
-};
 
 /// Which sweeps of the rule the cells must be ready for.
 enum class Sweeps { none, one_after_the_other };

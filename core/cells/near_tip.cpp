@@ -97,14 +97,10 @@ TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
   const Bend b = bend(polar.r);
   const double g = angle_from_crack(d, b, side);
   const Vec2 radial = (x - tip()) / polar.r;
-  if (b.angle == 0.0 && b.slope == 0.0) {  // straight
-    polar.theta = g;
-    polar.grad_r = radial;
-    polar.grad_theta = turned_left(radial) / polar.r;
-    return polar;
-  }
-  polar.theta = g + b.angle * (1 + std::cos(g)) / 2;
-  const double by_g = 1 - b.angle * std::sin(g) / 2, by_bend = (1 + std::cos(g)) / 2;
+  const bool bent = b.angle != 0.0 || b.slope != 0.0;  // else sine and cosine do not count
+  const double sine = bent ? std::sin(g) : 0.0, cosine = bent ? std::cos(g) : 0.0;
+  polar.theta = g + b.angle * (1 + cosine) / 2;
+  const double by_g = 1 - b.angle * sine / 2, by_bend = (1 + cosine) / 2;
   polar.grad_r = radial;
   polar.grad_theta = by_g / polar.r * turned_left(radial) + b.slope * (by_bend - by_g) * radial;
   return polar;

@@ -33,7 +33,6 @@ class LineSearch {
   double work(double share) const;
   /// What loads, body and faces store less there than at the start: the integral of the work.
   double released(double share) const;
-  /// Of all forces on the move, where this share of it is done.
 
   const Model& model_;
   std::vector<double> move_;

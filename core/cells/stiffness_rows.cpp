@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/stiffness_rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cdca {
+
+double StiffnessRows::times(std::size_t row, std::span<const double> x, LocalId end) const {
+  double sum = 0.0;
+  for (std::size_t k = start[row]; k < start[row + 1]; ++k) {
+    if (column[k] < end) sum += value[k] * x[std::size_t(column[k])];
+  }
+  return sum;
+}
+
+std::ptrdiff_t StiffnessRows::find(LocalId u) const {
+  const auto it = std::lower_bound(unknown.begin(), unknown.end(), u);
+  return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
+}
+
+void RowSum::add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix) {
+  made_.push_back(std::move(matrix));
+  addends_.push_back({std::move(unknowns), made_.back().data()});
+}
+
+void RowSum::refer_to(std::vector<LocalId> unknowns, const Eigen::Matrix<double, 8, 8>& matrix) {
+  addends_.push_back({std::move(unknowns), matrix.data()});
+}
+
+std::vector<RowSum::Part> RowSum::parts_by_unknown(const std::vector<char>& wanted,
+                                                   std::vector<std::size_t>& end) const {
+  end.assign(wanted.size() + 1, 0);
+  for (const Addend& a : addends_) {
+    for (const LocalId u : a.unknowns)
+      end[std::size_t(u) + 1] += std::size_t(wanted[std::size_t(u)]);
+  }
+  for (std::size_t r = 1; r < end.size(); ++r) end[r] += end[r - 1];
+  std::vector<Part> parts(end.back());
+  for (const Addend& a : addends_) {
+    for (std::size_t k = 0; k < a.unknowns.size(); ++k) {
+      const auto u = std::size_t(a.unknowns[k]);
+      if (wanted[u]) parts[end[u]++] = {&a, k};
+    }
+  }
+  return parts;
+}
+
+StiffnessRows RowSum::rows(const std::vector<char>& wanted, LocalId owned) const {
+  std::vector<std::size_t> end;
+  const auto parts = parts_by_unknown(wanted, end);
+  std::vector<double> sum(wanted.size(), 0.0);
+  std::vector<char> found(wanted.size(), 0);
+  std::vector<LocalId> columns;
+  StiffnessRows rows;
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    const std::size_t first = r == 0 ? 0 : end[r - 1];
+    if (first == end[r]) continue;
+    const LocalId last = LocalId(r) < owned ? LocalId(wanted.size()) : owned;
+    columns.clear();
+    for (std::size_t p = first; p < end[r]; ++p) {
+      const auto& unknowns = parts[p].addend->unknowns;
+      const double* value = parts[p].addend->matrix + parts[p].row;
+      for (const LocalId c : unknowns) {
+        if (c < last) {
+          const auto at = std::size_t(c);
+          if (!std::exchange(found[at], 1)) columns.push_back(c);
+          sum[at] += *value;
+        }
+        value += unknowns.size();
+      }
+    }
+    std::sort(columns.begin(), columns.end());
+    if (columns.empty()) continue;
+    rows.unknown.push_back(LocalId(r));
+    for (const LocalId c : columns) {
+      rows.column.push_back(c);
+      rows.value.push_back(std::exchange(sum[std::size_t(c)], 0.0));
+      found[std::size_t(c)] = 0;
+    }
+    rows.start.push_back(rows.column.size());
+  }
+  return rows;
+}
+
+}  // namespace cdca

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Rows of own stiffness, and how they are added up.
+#pragma once
+
+#include "core/base/types.hpp"
+
+#include <Eigen/Dense>
+
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace cdca {
+
+/// Rows of own stiffness: for each listed unknown the unknowns that it is coupled to.
+struct StiffnessRows {
+  std::vector<LocalId> unknown;  ///< one per row, ascending
+  std::vector<std::size_t> start{0};
+  std::vector<LocalId> column;
+  std::vector<double> value;
+
+  /// Sum of value times x of one row, over the columns below `end`.
+  double times(std::size_t row, std::span<const double> x, LocalId end) const;
+  /// Row number of an unknown, or -1.
+  std::ptrdiff_t find(LocalId unknown) const;
+};
+
+/// Adds up rows of cells from the matrices of elements, part by part and face by face.
+class RowSum {
+ public:
+  void add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix);
+  /// Of an element without cracks; the matrix has to stay where it is.
+  void refer_to(std::vector<LocalId> unknowns, const Eigen::Matrix<double, 8, 8>& matrix);
+
+  /// The rows of all wanted unknowns; entries of ghosts on ghosts are left out. Entries of the same
+  /// place are added up in the order in which they came, so that the sums are bit for bit the same
+  /// whatever the numbers of the unknowns.
+  StiffnessRows rows(const std::vector<char>& wanted, LocalId owned) const;
+
+ private:
+  struct Addend {
+    std::vector<LocalId> unknowns;
+    const double* matrix;  ///< by columns
+  };
+  /// A row of an addend.
+  struct Part {
+    const Addend* addend;
+    std::size_t row;
+  };
+  /// The parts of row u end at end[u] and begin at the end of the row before.
+  std::vector<Part> parts_by_unknown(const std::vector<char>& wanted,
+                                     std::vector<std::size_t>& end) const;
+
+  std::deque<Eigen::MatrixXd> made_;
+  std::vector<Addend> addends_;
+};
+
+}  // namespace cdca
