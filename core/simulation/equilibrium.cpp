@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -88,26 +87,6 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
   model.stiffness().halo().copy_state(state);
 }
 
-/// Loose fragments may go from one balance that is nearly one to the next for ever. Where what is
-/// unbalanced has not halved for long, little of it is accepted.
-class Patience {
- public:
-  /// Of tractions, as a part of the largest one.
-  double tolerance(double unbalanced, double usual) {
-    constexpr int longest = 30;
-    constexpr double little = 1e-3;
-    if (unbalanced < 0.5 * least_) {
-      least_ = unbalanced;
-      since_ = 0;
-    }
-    return ++since_ > longest ? std::max(usual, little) : usual;
-  }
-
- private:
-  double least_ = std::numeric_limits<double>::infinity();
-  int since_ = 0;
-};
-
 /// Of the forces that weak springs have added in a solve, as a part of all forces: bodies may not
 /// have gone far enough yet.
 double held_back(const Model& model, const LineSearch& search, double scale) {
@@ -147,7 +126,6 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   const auto here = model.contact_spots().gaps(model.state(), contact, model.communicator());
   if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
   LimitIteration friction;
-  Patience patience;
   double weak = firmest;
   for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     std::fill(given.faces.begin(), given.faces.end(), 0.0);
@@ -167,7 +145,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const double before = std::exchange(weak, share == 1.0 ? std::max(weakest, 0.3 * weak) : weak);
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     result.contact_unbalanced = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
-    const double enough = patience.tolerance(change.unbalanced, 10 * tolerance);
+    const double enough = 10 * tolerance;
     if (share == 1.0 && change.unbalanced <= enough * change.largest && pulled <= enough)
       return worst;
   }
