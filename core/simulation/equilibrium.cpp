@@ -139,15 +139,14 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
     const double pulled = held_back(model, search, report.scale);
-    const bool settled = share == 1.0 && contact.settled(gaps);
+    const bool whole = share >= 1.0, settled = whole && contact.settled(gaps);
     const auto change = contact.respond(gaps, next_limits(friction, contact, gaps, settled, k));
     // bodies that only others hold are let go little by little
-    const double before = std::exchange(weak, share == 1.0 ? std::max(weakest, 0.3 * weak) : weak);
+    const double before = std::exchange(weak, whole ? std::max(weakest, 0.3 * weak) : weak);
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     result.contact_unbalanced = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
     const double enough = 10 * tolerance;
-    if (share == 1.0 && change.unbalanced <= enough * change.largest && pulled <= enough)
-      return worst;
+    if (whole && change.unbalanced <= enough * change.largest && pulled <= enough) return worst;
   }
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "

@@ -19,7 +19,7 @@ class LineSearch {
   LineSearch(const Model& model, const std::vector<double>& external,
              const std::vector<double>& from);
 
-  /// Share of the way, from 0 to 1. Collective.
+  /// Share of the way, from 0 to 1; more where only weak springs hold a body. Collective.
   double find() const;
   const std::vector<double>& move() const { return move_; }
   /// Of all patches there.
