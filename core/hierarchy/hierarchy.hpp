@@ -17,7 +17,7 @@ namespace cdca {
 struct HierarchyShape {
   WindowShape windows;
   /// A scale with no more nodes than this is the coarsest.
-  GlobalId coarsest_nodes = 3500;
+  GlobalId coarsest_nodes = 1000;
 };
 
 /// What is needed of the finest scale; borrowed, and to live as long as the hierarchy built on it.

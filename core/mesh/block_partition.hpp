@@ -57,10 +57,13 @@ struct CellWeight {
   int extra = 0;  ///< in unknowns
 };
 
+/// Enough blocks for even shares, and few enough to be partitioned in a small part of the set-up.
+constexpr int most_blocks(int ranks) { return std::clamp(1000 * ranks, 2000, 8000); }
+
 /// Shares out the cells of a grid by `partitioner`, weighted by unknowns. The root partitions, all
 /// receive. Grids of more than max_blocks cells are partitioned by blocks of several cells.
 BlockPartition partition_cells(const StructuredGrid& grid, const std::vector<CellWeight>& weights,
                                Communicator& communicator, const Partitioner& partitioner,
-                               int max_blocks = 8000);
+                               int max_blocks);
 
 }  // namespace cdca

@@ -28,7 +28,9 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
       hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
-  mesh_ = LocalMesh(grid_, partition_cells(grid_, weights, communicator_, partitioner),
+  mesh_ = LocalMesh(grid_,
+                    partition_cells(grid_, weights, communicator_, partitioner,
+                                    most_blocks(communicator_.size())),
                     communicator_.rank());
   build_cells();
   refuse_loose_bodies();
