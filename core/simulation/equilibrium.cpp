@@ -115,8 +115,9 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
                             Forces& given, Equilibrium& result) {
   constexpr int most = 500;
   constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
+  constexpr double farthest = 1024;                 // that these bodies go, in moves
   // weak springs must not turn small errors into long ways
-  const double tolerance = model.spec().solver.tolerance;
+  const double tolerance = model.spec().solver.tolerance, enough = 10 * tolerance;
   const double part = model.has_weak_springs() ? std::clamp(1e-13 / tolerance, 1e-2, 1.0) : 1.0;
   ContactPatches& contact = model.contact();
   SolverReport worst;
@@ -135,18 +136,18 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     worst.iterations = std::max(worst.iterations, report.iterations);
     worst.residual = report.residual;
     const LineSearch search(model, given.external, from);
-    const double share = search.find();
+    const double pulled = held_back(model, search, report.scale);
+    const double share = search.find(pulled > enough ? farthest : 1.0);
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
-    const double pulled = held_back(model, search, report.scale);
     const bool whole = share >= 1.0, settled = whole && contact.settled(gaps);
     const auto change = contact.respond(gaps, next_limits(friction, contact, gaps, settled, k));
     // bodies that only others hold are let go little by little
     const double before = std::exchange(weak, whole ? std::max(weakest, 0.3 * weak) : weak);
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     result.contact_unbalanced = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
-    const double enough = 10 * tolerance;
-    if (whole && change.unbalanced <= enough * change.largest && pulled <= enough) return worst;
+    if (share == 1.0 && change.unbalanced <= enough * change.largest && pulled <= enough)
+      return worst;
   }
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "

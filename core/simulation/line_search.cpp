@@ -11,8 +11,8 @@ namespace {
 /// A move must release this part of the work that its start promises, and stop where the forces
 /// have fallen to this part of it.
 constexpr double least_released = 1e-3, balanced = 0.1;
-/// A move goes on, up to so many times its length, while this part of the forces is left.
-constexpr double held = 0.5, farthest = 1024;
+/// A move that may go on does so while this part of the forces is left.
+constexpr double held = 0.5;
 
 }  // namespace
 
@@ -41,18 +41,18 @@ LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
   stiffness_ -= model.communicator().sum(spots.spring_work(model.contact(), moves_, moves_));
 }
 
-double LineSearch::find() const {
-  const double start = work(0.0), end = work(1.0);
+double LineSearch::find(double most) const {
+  const double start = work(0.0);
   if (!(start > 0.0)) return 1.0;
-  if (end >= 0.0) {
-    // weak springs may have stopped the move long before its time
-    double share = 1.0;
-    while (model_.has_weak_springs() && share < farthest && work(share) > held * start) share *= 2;
-    return share;
+  double low = 0.0, high = 1.0, at_low = start, at_high = work(1.0);
+  while (2 * high <= most && at_high > held * start) {
+    low = high;
+    at_low = at_high;
+    high *= 2;
+    at_high = work(high);
   }
-  if (released(1.0) >= least_released * start) return 1.0;
+  if (at_high >= 0.0 || released(high) >= least_released * high * start) return high;
   // halving now and then, since the work may jump where faces turn from one slip to the other
-  double low = 0.0, high = 1.0, at_low = start, at_high = end;
   for (int k = 0; k < 100 && high - low > 1e-14 * high; ++k) {
     const double straight = at_low / (at_low - at_high);
     const double share = low + (high - low) * (k % 2 == 0 ? straight : 0.5);

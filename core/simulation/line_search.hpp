@@ -19,8 +19,9 @@ class LineSearch {
   LineSearch(const Model& model, const std::vector<double>& external,
              const std::vector<double>& from);
 
-  /// Share of the way, from 0 to 1; more where only weak springs hold a body. Collective.
-  double find() const;
+  /// Share of the way: up to 1, or up to `most` where the forces are hardly less after the whole
+  /// move, since weak springs have stopped it. Collective.
+  double find(double most) const;
   const std::vector<double>& move() const { return move_; }
   /// Of all patches there.
   std::vector<ContactGap> gaps(double share) const;
