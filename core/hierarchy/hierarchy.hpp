@@ -17,7 +17,7 @@ namespace cdca {
 struct HierarchyShape {
   WindowShape windows;
   /// A scale with no more nodes than this is the coarsest.
-  GlobalId coarsest_nodes = 1000;
+  GlobalId coarsest_nodes = 0;
 };
 
 /// What is needed of the finest scale; borrowed, and to live as long as the hierarchy built on it.
@@ -32,7 +32,7 @@ struct FinestScale {
 /// All scales of a body.
 class Hierarchy final : public Scales {
  public:
-  explicit Hierarchy(const HierarchyShape& shape = {}) : shape_(shape) {}
+  explicit Hierarchy(const HierarchyShape& shape) : shape_(shape) {}
 
   /// Lays out the windows of the finest scale. Returns the cells that need rows of their own.
   std::vector<GlobalId> plan(const BasisContext& basis);
