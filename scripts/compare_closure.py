@@ -54,7 +54,7 @@ def table(result, found):
             ("faces touch up to x/a", closes, exact["closure_point_x_over_a"], f"{1.5 * side:.3f}, 1.5 elements"),
             ("without contact: $K_I$ on the right", None, exact["FI_without_contact"], "")]
     cells = result.case["domain"]["cells"]
-    lines = [f"{cells[0]} × {cells[1]} elements, {result.history[0]['contact_iterations']} contact solves, "
+    lines = [f"{cells[0]} × {cells[1]} elements, {result.history[0]['contact_iterations']} contact turns, "
              f"{result.history[0]['solver_iterations']} iterations at most.", "",
              "| quantity | computed | reference | difference | allowed |", "| --- | --- | --- | --- | --- |"]
     for name, value, expected, allowed in rows:

@@ -215,7 +215,7 @@ def friction_lines(result):
         return []
     solves = [int(row["contact_iterations"]) for row in result.history]
     return [f"| of it, on friction | {float(result.history[-1]['friction_work']):.4g} J |",
-            f"| contact solves in a step: typical, most | {np.median(solves):.0f}, {max(solves)} |",
+            f"| contact turns in a step: typical, most | {np.median(solves):.0f}, {max(solves)} |",
             f"| most iterations of a solve | {max(int(row['solver_iterations']) for row in result.history)} |"]
 
 

@@ -166,7 +166,7 @@ def wing_table(cases):
 def run_table(cases):
     """How the runs went; loads are stresses on the top."""
     lines = ["", "| case | first growth at, MPa | load steps | stress at the end, MPa | end | joins "
-             "| contact solves in a step, typical and most | most iterations of a solve | off half a turn, mm | time, s |",
+             "| contact turns in a step, typical and most | most iterations of a solve | off half a turn, mm | time, s |",
              "| --- |" + " --- |" * 9]
     for case in cases:
         history, summary = case.result.history, case.result.summary

@@ -19,6 +19,10 @@ Key key_of(int crack, const Vec2& a, const Vec2& b) {
 /// Of springs, Pa/m.
 bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(a, b); }
 
+bool slides(const ContactPatch& p) {
+  return p.now.state == ContactState::slip && p.now.tangential_spring == 0.0;
+}
+
 }  // namespace
 
 ContactPatches::ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
@@ -173,6 +177,30 @@ std::vector<double> ContactPatches::limits_at(const std::vector<ContactGap>& gap
   for (std::size_t k = 0; k < patches_.size(); ++k)
     limits.push_back(limit_at(law_of(patches_[k]), gaps[k].normal));
   return limits;
+}
+
+ContactPatches::SlidingLimits ContactPatches::limits_of_sliding(
+    const std::vector<ContactGap>& gaps) const {
+  SlidingLimits found{limits(), 0.0};
+  double change = 0.0, largest = 0.0;
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    const ContactPatch& p = patches_[k];
+    largest = std::max({largest, std::abs(p.now.normal_spring * gaps[k].normal), p.limit});
+    if (!slides(p)) continue;
+    found.limits[k] = limit_at(law_of(p), gaps[k].normal);
+    change = std::max(change, std::abs(found.limits[k] - p.limit));
+  }
+  if (largest > 0.0) found.off = change / largest;
+  return found;
+}
+
+void ContactPatches::slide_at(const std::vector<double>& limits) {
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    ContactPatch& p = patches_[k];
+    if (!slides(p)) continue;
+    p.limit = limits[k];
+    p.now.tangential = std::copysign(limits[k], p.now.tangential);
+  }
 }
 
 double ContactPatches::unbalanced(const ContactPatch& p, const ContactGap& gap,

@@ -72,6 +72,14 @@ class ContactPatches final : public FaceSprings {
   std::vector<double> limits_at(const std::vector<ContactGap>& gaps) const;
   /// Would all patches keep their states at such gaps and the limits that they have?
   bool settled(const std::vector<ContactGap>& gaps) const;
+  /// Limits of faces that slide, as they follow from gaps; the others keep theirs.
+  struct SlidingLimits {
+    std::vector<double> limits;  ///< Pa
+    double off = 0.0;            ///< greatest change, as a part of the largest traction
+  };
+  SlidingLimits limits_of_sliding(const std::vector<ContactGap>& gaps) const;
+  /// Faces that slide keep to these limits from now on, Pa.
+  void slide_at(const std::vector<double>& limits);
   /// What has changed in the answers of the patches.
   struct Change {
     bool springs = false;     ///< the stiffness

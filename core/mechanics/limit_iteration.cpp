@@ -7,13 +7,8 @@
 
 namespace cdca {
 
-void LimitIteration::restart() {
-  tried_.clear();
-  found_.clear();
-}
-
 std::vector<double> LimitIteration::next(const std::vector<double>& limits,
-                                         const std::vector<double>& found, double share) {
+                                         const std::vector<double>& found) {
   tried_.push_back(limits);
   found_.push_back(found);
   if (tried_.size() > depth) {
@@ -25,7 +20,7 @@ std::vector<double> LimitIteration::next(const std::vector<double>& limits,
   for (Eigen::Index k = 0; k < size; ++k) {
     const auto at = std::size_t(k);
     residual(k) = found[at] - limits[at];
-    next(k) = limits[at] + share * residual(k);
+    next(k) = found[at];
   }
   if (pairs > 0) {
     Eigen::MatrixXd residuals(size, pairs), steps(size, pairs);
@@ -40,7 +35,6 @@ std::vector<double> LimitIteration::next(const std::vector<double>& limits,
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit(residuals);
     fit.setThreshold(1e-8);
-    for (Eigen::Index k = 0; k < size; ++k) next(k) = found[std::size_t(k)];
     next -= steps * fit.solve(residual);
   }
   std::vector<double> limits_next;

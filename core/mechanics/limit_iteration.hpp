@@ -11,11 +11,8 @@ namespace cdca {
 /// cancel best (D. G. Anderson, J. ACM 12, 1965). Same on every rank for the same numbers.
 class LimitIteration {
  public:
-  /// What to try after `limits` led to `found`; share: of the way there, without mixing.
-  std::vector<double> next(const std::vector<double>& limits, const std::vector<double>& found,
-                           double share);
-  /// Something else has changed: what was tried before says nothing any more.
-  void restart();
+  /// What to try after `limits` led to `found`.
+  std::vector<double> next(const std::vector<double>& limits, const std::vector<double>& found);
 
  private:
   static constexpr std::size_t depth = 5;  ///< pairs that are kept

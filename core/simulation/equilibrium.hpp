@@ -10,8 +10,9 @@ namespace cdca {
 std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
 
 struct Equilibrium {
-  SolverReport solver;         ///< of the slowest linear solve
-  int contact_iterations = 0;  ///< linear solves until touching faces settled; 0: none touch
+  SolverReport solver;  ///< of the slowest linear solve
+  /// How often touching faces changed until they settled; 0: none touch.
+  int contact_iterations = 0;
   /// Largest traction of a face that the last solve did not count with, over the largest traction.
   double contact_unbalanced = 0.0;
   /// Force of the supports of every boundary block on the body, N per metre of thickness.

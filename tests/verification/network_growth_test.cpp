@@ -72,7 +72,7 @@ CaseSpec network_of_seed(unsigned seed, Loading loading) {
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
-  if (seed % 5 != 0) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
+  if ((seed % 5 == 0) == touching) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
   spec.load_factors.clear();
   for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;

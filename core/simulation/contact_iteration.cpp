@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/contact_iteration.hpp"
+
+#include "core/base/errors.hpp"
+#include "core/mechanics/limit_iteration.hpp"
+#include "core/simulation/line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace cdca {
+
+namespace {
+
+/// Limits of friction follow the pressures in so many iterations, then only where states settle.
+constexpr int follow_at_once = 20;
+
+void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
+  model.stiffness().clear_held(state);
+  for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
+  model.stiffness().halo().copy_state(state);
+}
+
+std::vector<ContactGap> gaps_of(Model& model) {
+  return model.contact_spots().gaps(model.state(), model.contact(), model.communicator());
+}
+
+/// Of forces that weak springs have added in a solve, as a part of all forces: bodies may not
+/// have gone far enough yet.
+double held_back(const Model& model, const LineSearch& search, double scale) {
+  if (!model.has_weak_springs() || scale == 0.0) return 0.0;
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> weak(std::size_t(cells.count()), 0.0);
+  cells.add_spring_forces(search.move(), weak);
+  return std::sqrt(cells.dot(weak, weak)) / scale;
+}
+
+/// Linear solves for one set of states of the faces.
+class Solves {
+ public:
+  Solves(Model& model, const EquilibriumSolver& solver, double load_factor, Forces& given)
+      : model_(model), solver_(solver), load_factor_(load_factor), given_(given) {}
+
+  void once(const Accuracy& accuracy) {
+    std::fill(given_.faces.begin(), given_.faces.end(), 0.0);
+    model_.add_contact_forces(given_.faces);
+    const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
+    slowest_.converged = report.converged;
+    slowest_.iterations = std::max(slowest_.iterations, report.iterations);
+    slowest_.residual = report.residual;
+    slowest_.scale = report.scale;
+  }
+
+  /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
+  /// agree to this part of the largest traction. A turn need only be as exact as it is long.
+  void turn_limits(double agreed, double part) {
+    constexpr int most = 10;
+    ContactPatches& contact = model_.contact();
+    LimitIteration turns;
+    for (int k = 0; k < most; ++k) {
+      const auto found = contact.limits_of_sliding(gaps_of(model_));
+      if (found.off <= agreed) return;
+      contact.slide_at(turns.next(contact.limits(), found.limits));
+      once({0.1 * part, 0.05});
+    }
+  }
+  /// Iterations of the slowest so far, and how exact the last one was.
+  const SolverReport& slowest() const { return slowest_; }
+
+ private:
+  Model& model_;
+  const EquilibriumSolver& solver_;
+  double load_factor_;
+  Forces& given_;
+  SolverReport slowest_;
+};
+
+}  // namespace
+
+SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
+                            Forces& given, Equilibrium& result) {
+  constexpr int most = 500;
+  constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
+  constexpr double farthest = 1024;                 // that these bodies go, in moves
+  constexpr double nearly = 1e-2;                   // unbalanced tractions where few faces turn
+  constexpr double tiny = std::numeric_limits<double>::min();
+  // weak springs must not turn small errors into long ways
+  const double tolerance = model.spec().solver.tolerance, enough = 10 * tolerance;
+  const double part = model.has_weak_springs() ? std::clamp(1e-13 / tolerance, 1e-2, 1.0) : 1.0;
+  ContactPatches& contact = model.contact();
+  Solves solves(model, solver, load_factor, given);
+  set_held(model, given.held, model.state());
+  // new faces answer to where they are, so that the first move goes towards balance
+  const auto here = gaps_of(model);
+  if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
+  double weak = firmest, unbalanced = 1.0;
+  bool settled = false;
+  for (int& k = result.contact_iterations = 1; k <= most; ++k) {
+    // while many faces still change their states it is of no use to be exact
+    const bool following = k <= follow_at_once, near = settled || unbalanced <= nearly;
+    const double agreed = near ? 0.1 * enough : 0.1 * std::min(1.0, 10 * unbalanced) * unbalanced;
+    const std::vector<double> from = model.state();
+    solves.once({part, following && !near ? 1e-3 : 0.0});
+    if (following || settled) solves.turn_limits(std::max(agreed, 0.1 * enough), part);
+    const LineSearch search(model, given.external, from);
+    const double pulled = held_back(model, search, solves.slowest().scale);
+    const double share = search.find(pulled > enough ? farthest : 1.0);
+    search.go(share, from, model.state());
+    const auto gaps = search.gaps(share);
+    const bool whole = share >= 1.0;
+    settled = whole && contact.settled(gaps);
+    const auto limits = following || settled ? contact.limits_at(gaps) : contact.limits();
+    const auto change = contact.respond(gaps, limits);
+    // bodies that only others hold are let go little by little
+    const double before = std::exchange(weak, whole ? std::max(weakest, 0.3 * weak) : weak);
+    if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
+    unbalanced = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
+    result.contact_unbalanced = unbalanced;
+    const bool exact = solves.slowest().residual <= part * tolerance;
+    if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
+  }
+  std::ostringstream text;
+  text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
+       << most << " iterations; smaller load steps may help.";
+  throw ContactError(text.str());
+}
+
+}  // namespace cdca

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/linear_solve.hpp"
+
+#include "core/base/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace cdca {
+
+namespace {
+
+void require_convergence(const SolverReport& report, const SolverSpec& spec, double load_factor) {
+  if (report.converged) return;
+  std::ostringstream text;
+  text << "equilibrium at load factor " << load_factor << " was not reached: after "
+       << report.iterations << " iterations the relative residual is " << report.residual
+       << ", above solver.tolerance = " << spec.tolerance << ".";
+  throw SolveError(text.str());
+}
+
+double norm(const CellStiffness& cells, const std::vector<double>& forces) {
+  return std::sqrt(cells.dot(forces, forces));
+}
+
+}  // namespace
+
+SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
+                        const Forces& given, const Accuracy& accuracy) {
+  const CellStiffness& cells = model.stiffness();
+  const SolverSpec& spec = model.spec().solver;
+  const auto own = std::size_t(cells.owned());
+  std::vector<double> forces(std::size_t(cells.count()), 0.0), product(forces);
+  cells.apply(given.held, product);
+  for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k] - product[k];
+  // weak springs of loose bodies stand where the bodies are
+  std::vector<double>& state = model.state();
+  cells.add_spring_forces(state, forces);
+  cells.clear_held(forces);
+  cells.clear_held(state);
+  SolverReport report;
+  report.scale = norm(cells, forces);
+  if (report.scale > 0.0) {
+    double least = accuracy.part * report.scale;
+    if (accuracy.of_start > 0.0) {
+      cells.set_residual(forces, state, product);
+      least = std::max(least, accuracy.of_start * norm(cells, product) / spec.tolerance);
+    }
+    const double scale = report.scale;
+    report = solver.solve(cells, forces, state, least);
+    require_convergence(report, spec, load_factor);
+    report.residual *= least / scale;
+    report.scale = scale;
+  } else {
+    std::fill(state.begin(), state.end(), 0.0);
+  }
+  for (std::size_t k = 0; k < own; ++k) state[k] += given.held[k];
+  cells.halo().copy_state(state);
+  return report;
+}
+
+}  // namespace cdca

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// One linear solve of a model with the springs and tractions of its faces as they are.
+#pragma once
+
+#include "core/simulation/model.hpp"
+#include "core/solver/equilibrium_solver.hpp"
+
+#include <vector>
+
+namespace cdca {
+
+/// On own cells, in one solve.
+struct Forces {
+  std::vector<double> external;  ///< of the loads, N per metre of thickness
+  std::vector<double> faces;     ///< of given tractions between touching faces, likewise
+  std::vector<double> held;      ///< prescribed displacements, m
+};
+
+/// When a solve is exact enough.
+struct Accuracy {
+  double part = 1.0;      ///< of solver.tolerance
+  double of_start = 0.0;  ///< or where the residual has fallen to this part of what it was at first
+};
+
+/// Moves the model's state to where these forces are in balance, ghosts included. The report's
+/// residual and scale are relative to all forces. Throws SolveError when the solver does not
+/// converge. Collective.
+SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
+                        const Forces& given, const Accuracy& accuracy = {});
+
+}  // namespace cdca
