@@ -31,6 +31,15 @@ function(cdca_mpi_program name)
   endif()
 endfunction()
 
+# cdca_precompile(<target> [<header>...]): headers of other projects that most of its files include are read once
+# for all of them. Files still include what they use: builds without this must work.
+function(cdca_precompile name)
+  if(CDCA_PRECOMPILED_HEADERS)
+    target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <functional> <map> <optional> <span> <string> <vector>
+      <Eigen/Dense> <Eigen/SparseCholesky> ${ARGN})
+  endif()
+endfunction()
+
 # cdca_library(<name> [<linked targets>...]): a static library of every .cpp below the current folder.
 # Includes are written from the top of the project: #include "core/mesh/grid.hpp".
 function(cdca_library name)
@@ -38,6 +47,7 @@ function(cdca_library name)
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PRIVATE cdca_options)
+    cdca_precompile(${name})
     set(scope PUBLIC)
   else()  # headers only
     add_library(${name} INTERFACE)
