@@ -38,6 +38,10 @@ struct ContactAnswer {
   /// spring: their traction is given.
   double normal_spring = 0.0;
   double tangential_spring = 0.0;
+  /// Gaps (m, with the body's share) where these springs exert nothing; other than 0 in a
+  /// relaxation of the faces only.
+  double normal_zero = 0.0;
+  double tangential_zero = 0.0;
   double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
 };
 

@@ -57,6 +57,16 @@ std::vector<ContactGap> ContactSpots::gaps(std::span<const double> state,
   return found;
 }
 
+std::vector<double> ContactSpots::compliances(const ContactPatches& patches,
+                                              Communicator& communicator) const {
+  std::vector<double> sums(patches.patches().size(), 0.0);
+  for (const Spot& spot : spots_) {
+    if (spot.evaluated && spot.geometry.uses_stress) sums[spot.patch] = spot.at.compliance;
+  }
+  communicator.sum(std::span<double>(sums));
+  return sums;
+}
+
 ContactSpots::Fields ContactSpots::fields(std::span<const double> state) const {
   Fields found;
   for (const Spot& spot : spots_) found.push_back(spot.at.field(spot.geometry, state));
@@ -133,15 +143,20 @@ void ContactSpots::add_forces(const ContactPatches& patches, LocalId owned,
   for (const Spot& spot : spots_) {
     const ContactPatch& patch = patches.patches()[spot.patch];
     const double s = spot.at.compliance;
-    // along the face: a spring whose zero has moved away, or a given traction
-    const double spring = patch.now.tangential_spring, given = patch.now.tangential;
-    const SpringTerms terms(spot.geometry, s, spring);
-    const double on_jump = spring > 0.0 ? -patch.slip * terms.jump : given;
-    if (on_jump == 0.0) continue;
-    const double on_stress =
-        spring > 0.0 ? -patch.slip * terms.mixed : spot.geometry.uses_stress * s * given;
-    const Vec2 by_jump = on_jump * spot.geometry.tangent;
-    const Vec2 by_stress = on_stress * spot.geometry.tangent;
+    // springs whose zeros have moved away, or along the face a given traction
+    const double given = patch.now.tangential;
+    const auto add = [&](double spring, double zero) {
+      const SpringTerms terms(spot.geometry, s, spring);
+      return Vec2(-zero * terms.jump, -zero * terms.mixed);
+    };
+    const Vec2 across = add(patch.now.normal_spring, patch.now.normal_zero);
+    const Vec2 along =
+        patch.now.tangential_spring > 0.0
+            ? add(patch.now.tangential_spring, patch.slip + patch.now.tangential_zero)
+            : Vec2(given, spot.geometry.uses_stress ? s * given : 0.0);
+    if (across.x() == 0.0 && along.x() == 0.0) continue;
+    const Vec2 by_jump = along.x() * spot.geometry.tangent + across.x() * spot.geometry.normal;
+    const Vec2 by_stress = along.y() * spot.geometry.tangent + across.y() * spot.geometry.normal;
     for (const FaceFunction& f : spot.at.functions) {
       if (f.unknown >= owned) continue;
       const Vec2 force = -spot.at.weight * (f.jump * by_jump + f.traction.transpose() * by_stress);

@@ -22,6 +22,10 @@ class ContactSpots {
   std::vector<ContactGap> gaps(std::span<const double> state, const ContactPatches& patches,
                                Communicator& communicator) const;
 
+  /// Compliance of the body at every patch, where it takes part in the patch's gap, m/Pa.
+  /// Collective.
+  std::vector<double> compliances(const ContactPatches& patches, Communicator& communicator) const;
+
   /// Jump and stress at every spot.
   using Fields = std::vector<FaceSpot::Field>;
   Fields fields(std::span<const double> state) const;

@@ -2,7 +2,7 @@
 #include "core/simulation/contact_iteration.hpp"
 
 #include "core/base/errors.hpp"
-#include "core/mechanics/limit_iteration.hpp"
+#include "core/simulation/contact_solves.hpp"
 #include "core/simulation/line_search.hpp"
 
 #include <algorithm>
@@ -17,15 +17,13 @@ namespace {
 
 /// Limits of friction follow the pressures in so many iterations, then only where states settle.
 constexpr int follow_at_once = 20;
+/// Where Newton steps turn faces one by one, all are relaxed now and then.
+constexpr int relaxed_first = 8, relaxed_again = 10;
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
   for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
   model.stiffness().halo().copy_state(state);
-}
-
-std::vector<ContactGap> gaps_of(Model& model) {
-  return model.contact_spots().gaps(model.state(), model.contact(), model.communicator());
 }
 
 /// Of forces that weak springs have added in a solve, as a part of all forces: bodies may not
@@ -37,46 +35,6 @@ double held_back(const Model& model, const LineSearch& search, double scale) {
   cells.add_spring_forces(search.move(), weak);
   return std::sqrt(cells.dot(weak, weak)) / scale;
 }
-
-/// Linear solves for one set of states of the faces.
-class Solves {
- public:
-  Solves(Model& model, const EquilibriumSolver& solver, double load_factor, Forces& given)
-      : model_(model), solver_(solver), load_factor_(load_factor), given_(given) {}
-
-  void once(const Accuracy& accuracy) {
-    std::fill(given_.faces.begin(), given_.faces.end(), 0.0);
-    model_.add_contact_forces(given_.faces);
-    const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
-    slowest_.converged = report.converged;
-    slowest_.iterations = std::max(slowest_.iterations, report.iterations);
-    slowest_.residual = report.residual;
-    slowest_.scale = report.scale;
-  }
-
-  /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
-  /// agree to this part of the largest traction. A turn need only be as exact as it is long.
-  void turn_limits(double agreed, double part) {
-    constexpr int most = 10;
-    ContactPatches& contact = model_.contact();
-    LimitIteration turns;
-    for (int k = 0; k < most; ++k) {
-      const auto found = contact.limits_of_sliding(gaps_of(model_));
-      if (found.off <= agreed) return;
-      contact.slide_at(turns.next(contact.limits(), found.limits));
-      once({0.1 * part, 0.05});
-    }
-  }
-  /// Iterations of the slowest so far, and how exact the last one was.
-  const SolverReport& slowest() const { return slowest_; }
-
- private:
-  Model& model_;
-  const EquilibriumSolver& solver_;
-  double load_factor_;
-  Forces& given_;
-  SolverReport slowest_;
-};
 
 }  // namespace
 
@@ -91,10 +49,10 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   const double tolerance = model.spec().solver.tolerance, enough = 10 * tolerance;
   const double part = model.has_weak_springs() ? std::clamp(1e-13 / tolerance, 1e-2, 1.0) : 1.0;
   ContactPatches& contact = model.contact();
-  Solves solves(model, solver, load_factor, given);
+  ContactSolves solves(model, solver, load_factor, given);
   set_held(model, given.held, model.state());
   // new faces answer to where they are, so that the first move goes towards balance
-  const auto here = gaps_of(model);
+  const auto here = solves.gaps();
   if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
   double weak = firmest, unbalanced = 1.0;
   bool settled = false;
@@ -121,6 +79,9 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     result.contact_unbalanced = unbalanced;
     const bool exact = solves.slowest().residual <= part * tolerance;
     if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
+    if (k % relaxed_again != relaxed_first) continue;
+    solves.relax_faces(weak = weakest);
+    unbalanced = nearly;
   }
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "

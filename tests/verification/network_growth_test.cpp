@@ -123,6 +123,16 @@ TEST(LooseBodies, ComeToRestWithoutCreeping) {
   EXPECT_LT(found.contact_iterations, 50);
 }
 
+/// Blocks that jam: Newton steps alone turn their faces nearly one by one, and take about a
+/// hundred.
+TEST(JammedBlocks, SettleInFewTurns) {
+  Model model(network_of_seed(2, Loading::compression), world(), world_partitioner());
+  model.build_stiffness();
+  const Equilibrium found = find_equilibrium(model, *make_solver(model), 0.3);
+  std::cout << found.contact_iterations << " turns\n";
+  EXPECT_LT(found.contact_iterations, 25);
+}
+
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
 TEST_P(NetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth,

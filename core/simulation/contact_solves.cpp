@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/contact_solves.hpp"
+
+#include "core/mechanics/face_relaxation.hpp"
+#include "core/mechanics/limit_iteration.hpp"
+
+#include <algorithm>
+
+namespace cdca {
+
+namespace {
+
+/// A solve in a row of them need only be as exact as the change is large: this part of it.
+constexpr double of_change = 0.05;
+
+}  // namespace
+
+void ContactSolves::once(const Accuracy& accuracy) {
+  std::fill(given_.faces.begin(), given_.faces.end(), 0.0);
+  model_.add_contact_forces(given_.faces);
+  const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
+  slowest_.converged = report.converged;
+  slowest_.iterations = std::max(slowest_.iterations, report.iterations);
+  slowest_.residual = report.residual;
+  slowest_.scale = report.scale;
+}
+
+void ContactSolves::turn_limits(double agreed, double part) {
+  constexpr int most = 10;
+  ContactPatches& contact = model_.contact();
+  LimitIteration turns;
+  for (int k = 0; k < most; ++k) {
+    const auto found = contact.limits_of_sliding(gaps());
+    if (found.off <= agreed) return;
+    contact.slide_at(turns.next(contact.limits(), found.limits));
+    once({0.1 * part, of_change});
+  }
+}
+
+void ContactSolves::relax_faces(double weak) {
+  constexpr int most = 1000;
+  constexpr double enough = 1e-4;  // Newton steps do the rest
+  ContactPatches& contact = model_.contact();
+  // about that of a block of a few elements: neither faces nor body count alone
+  const double stiffness = 0.3 * model_.spec().material.young / model_.grid().smallest_side();
+  FaceRelaxation faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
+                       gaps(), stiffness);
+  for (int k = 0; k < most; ++k) {
+    const auto answers = faces.answers();
+    for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
+    if (k == 0) model_.build_stiffness(weak);
+    once({1.0, of_change});
+    if (faces.take(gaps()) <= enough) break;
+  }
+  contact.respond(faces.gaps(), faces.limits());
+  model_.build_stiffness(weak);
+}
+
+std::vector<ContactGap> ContactSolves::gaps() const {
+  return model_.contact_spots().gaps(model_.state(), model_.contact(), model_.communicator());
+}
+
+}  // namespace cdca

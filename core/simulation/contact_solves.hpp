@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The linear solves with which faces settle.
+#pragma once
+
+#include "core/simulation/linear_solve.hpp"
+
+namespace cdca {
+
+/// Solves of a model under the loads of one load factor. given.faces is set here.
+class ContactSolves {
+ public:
+  ContactSolves(Model& model, const EquilibriumSolver& solver, double load_factor, Forces& given)
+      : model_(model), solver_(solver), load_factor_(load_factor), given_(given) {}
+
+  /// With what the patches answer now. Collective, as the others.
+  void once(const Accuracy& accuracy);
+  /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
+  /// agree to this part of the largest traction. part: of the solver's tolerance.
+  void turn_limits(double agreed, double part);
+  /// Turns many faces at once (face_relaxation.hpp), and leaves springs, states and limits near
+  /// those of balance. weak: of the springs of loose bodies.
+  void relax_faces(double weak);
+
+  std::vector<ContactGap> gaps() const;
+  /// Iterations of the slowest so far, and how exact the last one was.
+  const SolverReport& slowest() const { return slowest_; }
+
+ private:
+  Model& model_;
+  const EquilibriumSolver& solver_;
+  double load_factor_;
+  Forces& given_;
+  SolverReport slowest_;
+};
+
+}  // namespace cdca
