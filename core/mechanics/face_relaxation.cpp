@@ -95,7 +95,8 @@ std::vector<ContactGap> FaceRelaxation::gaps() const {
     ContactGap gap = face.found;
     if (face.relaxed) {
       gap.normal = face.normal.gap / face.normal.scale;
-      if (face.tangential.compliance > 0.0) gap.tangential = face.tangential.gap / face.tangential.scale;
+      if (face.tangential.compliance > 0.0)
+        gap.tangential = face.tangential.gap / face.tangential.scale;
     }
     gaps.push_back(gap);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Every face for itself against the same soft spring: far from balance, where Newton steps turn one
-/// face after the other, this turns all at once.
+/// Every face for itself against the same soft spring: far from balance, where Newton steps turn
+/// one face after the other, this turns all at once.
 #pragma once
 
 #include "core/mechanics/contact_patches.hpp"
@@ -11,9 +11,9 @@ namespace cdca {
 
 /// The alternating direction method of multipliers for gaps and tractions of the faces (J. Douglas
 /// and H. H. Rachford, Trans. AMS 82, 1956; D. Gabay and B. Mercier, Comput. Math. Appl. 2, 1976).
-/// The body is solved with one spring for all faces, whose zeros move: v = G + t / r is the gap that
-/// the spring r would have without its zero, and each face answers to it with the traction t and
-/// the gap z that fit its own law, r (v - z) = t. The stiffness stays the same all the time, so
+/// The body is solved with one spring for all faces, whose zeros move: v = G + t / r is the gap
+/// that the spring r would have without its zero, and each face answers to it with the traction t
+/// and the gap z that fit its own law, r (v - z) = t. The stiffness stays the same all the time, so
 /// that one solve costs little. Friction counts with the pressure of the moment. It comes to rest
 /// for any convex law, but slowly: the last digits are for Newton steps.
 class FaceRelaxation {
@@ -50,7 +50,8 @@ class FaceRelaxation {
     ContactAnswer kept;  ///< where not relaxed
     ContactGap found;
   };
-  /// Answers to v with a traction between least and most. Returns how far gap and traction moved, Pa.
+  /// Answers to v with a traction between least and most. Returns how far gap and traction moved,
+  /// Pa.
   static double answer(Side& side, double spring, double gap, double least, double most);
 
   std::vector<ContactSpec> laws_;  ///< by patch

@@ -17,8 +17,9 @@ namespace {
 
 /// Limits of friction follow the pressures in so many iterations, then only where states settle.
 constexpr int follow_at_once = 20;
-/// Where Newton steps turn faces one by one, all are relaxed now and then.
-constexpr int relaxed_first = 8, relaxed_again = 10;
+/// Moves shorter than this turn faces one by one; after a few of them all faces are relaxed.
+constexpr double short_move = 0.1;
+constexpr int short_moves = 4;
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
@@ -56,6 +57,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
   double weak = firmest, unbalanced = 1.0;
   bool settled = false;
+  int cut_short = 0;
   for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     // while many faces still change their states it is of no use to be exact
     const bool following = k <= follow_at_once, near = settled || unbalanced <= nearly;
@@ -79,9 +81,11 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     result.contact_unbalanced = unbalanced;
     const bool exact = solves.slowest().residual <= part * tolerance;
     if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
-    if (k % relaxed_again != relaxed_first) continue;
-    solves.relax_faces(weak = weakest);
-    unbalanced = nearly;
+    if (share < short_move && ++cut_short == short_moves) {
+      solves.relax_faces(weak = weakest);
+      unbalanced = nearly;
+      cut_short = 0;
+    }
   }
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "

@@ -8,6 +8,7 @@
 #include "io/toml_reader.hpp"
 #include "tests/io/case_samples.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -149,8 +150,8 @@ TEST(CaseOptionsEffective, InputHasEveryOptionOfThisVersion) {
   for (const auto& option : options()) {
     const auto* section = find_section(option.section);
     if (option.whole_key_later || section->repeated || section->optional) continue;
-    const auto given = "\n" + std::string(option.key) + " = ";
-    const auto absent = "\n# " + std::string(option.key) + " is not given";
+    const auto given = fmt::format("\n{} = ", option.key);
+    const auto absent = fmt::format("\n# {} is not given", option.key);
     EXPECT_TRUE(text.find(given) != std::string::npos || text.find(absent) != std::string::npos)
         << option.path();
     if (!option.standard.empty()) {
