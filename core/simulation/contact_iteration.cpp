@@ -79,6 +79,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
     unbalanced = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
     result.contact_unbalanced = unbalanced;
+    result.linear_solves = solves.count();
     const bool exact = solves.slowest().residual <= part * tolerance;
     if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
     if (share < short_move && ++cut_short == short_moves) {

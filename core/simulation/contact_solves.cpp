@@ -19,6 +19,7 @@ void ContactSolves::once(const Accuracy& accuracy) {
   std::fill(given_.faces.begin(), given_.faces.end(), 0.0);
   model_.add_contact_forces(given_.faces);
   const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
+  ++count_;
   slowest_.converged = report.converged;
   slowest_.iterations = std::max(slowest_.iterations, report.iterations);
   slowest_.residual = report.residual;

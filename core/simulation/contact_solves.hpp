@@ -22,6 +22,7 @@ class ContactSolves {
   void relax_faces(double weak);
 
   std::vector<ContactGap> gaps() const;
+  int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }
 
@@ -31,6 +32,7 @@ class ContactSolves {
   double load_factor_;
   Forces& given_;
   SolverReport slowest_;
+  int count_ = 0;
 };
 
 }  // namespace cdca

@@ -13,6 +13,7 @@ struct Equilibrium {
   SolverReport solver;  ///< of the slowest linear solve
   /// How often touching faces changed until they settled; 0: none touch.
   int contact_iterations = 0;
+  int linear_solves = 1;  ///< in all turns
   /// Largest traction of a face that the last solve did not count with, over the largest traction.
   double contact_unbalanced = 0.0;
   /// Force of the supports of every boundary block on the body, N per metre of thickness.

@@ -70,7 +70,7 @@ void Recorder::solved(const Equilibrium& equilibrium, double seconds) {
   const SolverReport& report = equilibrium.solver;
   auto& p = summary_.performance;
   p.solve_s += seconds;
-  p.linear_solves += std::max(1, equilibrium.contact_iterations);
+  p.linear_solves += equilibrium.linear_solves;
   contact_iterations_of_step_ =
       std::max(contact_iterations_of_step_, equilibrium.contact_iterations);
   contact_unbalanced_of_step_ =
