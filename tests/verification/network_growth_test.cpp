@@ -131,6 +131,7 @@ TEST(JammedBlocks, SettleInFewTurns) {
   const Equilibrium found = find_equilibrium(model, *make_solver(model), 0.3);
   std::cout << found.contact_iterations << " turns\n";
   EXPECT_LT(found.contact_iterations, 25);
+  EXPECT_GT(found.linear_solves, found.contact_iterations) << "a turn holds several solves";
 }
 
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
