@@ -147,7 +147,8 @@ constexpr Option option_table[] = {
      .range = not_negative,
      .standard = "0.0",
      .text = "Nodes within this distance of a tip get near-tip functions; 0: the nodes of the tip "
-             "element only."},
+             "element only. Where another crack or the rim is within four elements of the tip, "
+             "nodes up to five elements away get them in the proportions of modes I and II."},
 
     {.section = "crack",
      .key = "name",

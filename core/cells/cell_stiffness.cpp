@@ -118,7 +118,7 @@ void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknown
     if (!mesh.owns(n) || unknowns.tips(n).empty()) continue;
     std::vector<LocalId> block;
     for (const TipUnknowns& tip : unknowns.tips(n)) {
-      for (LocalId k = 0; k < 8; ++k) block.push_back(tip.first + k);
+      for (LocalId k = 0; k < tip.count; ++k) block.push_back(tip.first + k);
     }
     const auto size = Eigen::Index(block.size());
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);

@@ -17,7 +17,7 @@ void write_cell(GlobalId node, const SpecialCell& cell, std::vector<std::int64_t
     out.insert(out.end(), slot.begin(), slot.end());
   }
   out.push_back(std::int64_t(cell.tips.size()));
-  for (const TipUnknowns& tip : cell.tips) out.push_back(tip.zone);
+  for (const TipUnknowns& tip : cell.tips) out.insert(out.end(), {tip.zone, tip.count});
 }
 
 std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, std::size_t& at) {
@@ -29,7 +29,8 @@ std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, 
     for (std::size_t k = 0; k < parts; ++k) slot.push_back(int(in[at++]));
   }
   const auto tips = std::size_t(in[at++]);
-  for (std::size_t k = 0; k < tips; ++k) cell.tips.push_back({int(in[at++]), 0});
+  for (std::size_t k = 0; k < tips; ++k, at += 2)
+    cell.tips.push_back({int(in[at]), 0, LocalId(in[at + 1])});
   return {node, std::move(cell)};
 }
 
@@ -62,7 +63,8 @@ void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
     SpecialCell cell;
     cell.pieces = pieces_of(elements, mesh.node(n));
     for (std::size_t z = 0; z < zones.size(); ++z) {
-      if (zones[z].nodes.count(mesh.node_id(n))) cell.tips.push_back({int(z), 0});
+      if (!zones[z].nodes.count(mesh.node_id(n))) continue;
+      cell.tips.push_back({int(z), 0, zones[z].with_modes.count(mesh.node_id(n)) ? 2 : 8});
     }
     if (cell.pieces.count > 1 || !cell.tips.empty()) special_.emplace(n, std::move(cell));
   }
@@ -101,7 +103,7 @@ void CellUnknowns::number(const LocalMesh& mesh) {
     next += 2 * (cell.pieces.count - 1);
     for (TipUnknowns& tip : cell.tips) {
       tip.first = next;
-      next += 8;
+      next += tip.count;
     }
   };
   for (const LocalId n : nodes) {
@@ -132,7 +134,7 @@ std::vector<LocalId> CellUnknowns::of_cell(LocalId node) const {
     unknowns.push_back(of_piece(node, p) + 1);
   }
   for (const TipUnknowns& tip : tips(node)) {
-    for (LocalId k = 0; k < 8; ++k) unknowns.push_back(tip.first + k);
+    for (LocalId k = 0; k < tip.count; ++k) unknowns.push_back(tip.first + k);
   }
   return unknowns;
 }

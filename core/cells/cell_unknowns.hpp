@@ -14,10 +14,13 @@
 
 namespace cdca {
 
-/// Eight unknowns: the coefficients b of the four near-tip functions (Eq. 5), x and y of each.
+/// Eight unknowns: the coefficients b of the four near-tip functions (Eq. 5), x and y of each; or
+/// two, those of the fields of modes I and II.
 struct TipUnknowns {
   int zone = 0;  ///< index of the tip zone
   LocalId first = 0;
+  LocalId count = 8;
+  bool has_modes() const { return count == 2; }
 };
 
 /// A cell that is not plain: several pieces, near-tip functions, or both.

@@ -92,7 +92,7 @@ void add_springs(const FaceSpot& spot, const FaceGeometry& face, const FaceStret
     const SpringTerms terms(face, spot.compliance, spring);
     for (std::size_t k = 0; k < spot.functions.size(); ++k) {
       const FaceFunction& f = spot.functions[k];
-      jump.segment<2>(Eigen::Index(2 * k)) = f.jump * *direction;
+      jump.segment<2>(Eigen::Index(2 * k)) = f.jump.transpose() * *direction;
       stress.segment<2>(Eigen::Index(2 * k)) = f.traction.transpose() * *direction;
     }
     matrix += spot.weight * terms.jump * jump * jump.transpose();
@@ -187,9 +187,11 @@ void FaceBasis::add_functions(const FacePoint& point, double share, FaceSpot& sp
                                 [&](const FaceFunction& g) { return g.unknown == f.unknown; });
       if (known == spot.functions.end())
         known = spot.functions.insert(known, FaceFunction{f.unknown});
-      known->jump += sign * share * f.value;
+      const Eigen::Matrix2d turn = f.columns();
+      known->jump += sign * share * f.value * turn;
       if (geometry_.uses_stress)
-        known->traction += share * side_share * traction_of(f.gradient, geometry_.normal, elastic_);
+        known->traction +=
+            share * side_share * traction_of(f.gradient, geometry_.normal, elastic_) * turn;
     }
   };
   const Vec2 p = point.at - plus_corner_, m = point.at - minus_corner_;

@@ -60,12 +60,12 @@ struct FaceGeometry {
   double plus_share;     ///< of the mean stress
 };
 
-/// A function as a spot of a face sees it: its jump, and the mean of its tractions (s n) for unit
-/// displacements in x and y, Pa.
+/// The functions of two unknowns as a spot of a face sees them. Columns are for a unit of the first
+/// and of the second.
 struct FaceFunction {
   LocalId unknown = 0;
-  double jump = 0.0;
-  Eigen::Matrix2d traction = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d jump = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d traction = Eigen::Matrix2d::Zero();  ///< mean of (s n), Pa
 };
 
 /// Where a spring acts: the means over a stretch of a face, or a node on a grid line.

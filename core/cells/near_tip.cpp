@@ -59,6 +59,11 @@ Vec2 TipFrame::local(const Vec2& x) const {
   return {d.dot(tangent_), cross(tangent_, d)};
 }
 
+bool TipFrame::is_prolonged_by(const Vec2& a, const Vec2& b, double limit) const {
+  const Vec2 p = local(a), q = local(b);
+  return std::max(std::abs(p.y()), std::abs(q.y())) < limit && std::max(p.x(), q.x()) < limit;
+}
+
 TipFrame::Bend TipFrame::bend(double r) const {
   if (r <= radius_[1] || path_.size() == 2) return {0.0, 0.0};
   std::size_t k = 1;

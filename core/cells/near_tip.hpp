@@ -62,6 +62,9 @@ class TipFrame {
   double angle(const Vec2& x, FaceSide side = FaceSide::none) const;
   /// Unrolled for a straight crack: a point's coordinates along and across the tangent, m.
   Vec2 local(const Vec2& x) const;
+  /// Does the segment [a, b] (m) prolong the straight crack behind the tip, within `limit` (m)? To
+  /// the tip, that is no other crack.
+  bool is_prolonged_by(const Vec2& a, const Vec2& b, double limit) const;
 
  private:
   struct Bend {

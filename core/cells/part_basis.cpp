@@ -7,6 +7,30 @@
 
 namespace cdca {
 
+namespace {
+
+/// On which side of the zone's crack all of a piece lies, if it does.
+FaceSide side_of_piece(const BasisContext& c, const TipZone& zone, LocalId node, int piece) {
+  const SpecialCell& cell = *c.unknowns.special(node);
+  if (cell.pieces.count == 1) return FaceSide::none;
+  const auto elements = c.mesh.grid().elements_round(c.mesh.node(node));
+  bool above = false, below = false;
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    const auto& parts = cell.pieces.piece[slot];
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      if (parts[part] != piece) continue;
+      const CutElement* cut = c.cuts.find(elements[slot]);
+      const Vec2 inside = cut ? cut->place_in(int(part)) : Vec2(0.5, 0.5);
+      const Vec2 x = c.mesh.grid().from_grid(Vec2(elements[slot].i, elements[slot].j) + inside);
+      (zone.frame.polar(x).theta > 0 ? above : below) = true;
+    }
+  }
+  if (above == below) return FaceSide::none;
+  return above ? FaceSide::plus : FaceSide::minus;
+}
+
+}  // namespace
+
 PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
     : corner_(context.mesh.grid().node_position({element.i, element.j})),
       size_(context.mesh.grid().element_size()) {
@@ -27,8 +51,10 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
     for (const TipUnknowns& tip : context.unknowns.tips(nodes[a])) {
       const TipZone& zone = context.zones[std::size_t(tip.zone)];
       if (!zone.acts_on(id, part)) continue;
-      const auto at_node = near_tip_functions(zone.frame.polar(grid.node_position(corners[a])));
-      tips_.push_back({a, &zone, tip.first, at_node.value});
+      const FaceSide side = side_of_piece(context, zone, nodes[a], piece);
+      const auto at_node =
+          near_tip_functions(zone.frame.polar(grid.node_position(corners[a]), side));
+      tips_.push_back({a, &zone, tip.first, tip.has_modes(), side, at_node.value});
     }
   }
   // one zone after the other, so that its functions are evaluated once a point
@@ -53,7 +79,7 @@ std::vector<LocalId> PartBasis::unknowns() const {
     if (u >= 0) first.push_back(u);
   }
   for (const TipShape& tip : tips_) {
-    for (LocalId l = 0; l < 4; ++l) first.push_back(tip.first + 2 * l);
+    for (LocalId l = 0; l < (tip.modes ? 1 : 4); ++l) first.push_back(tip.first + 2 * l);
   }
   return first;
 }
@@ -81,8 +107,10 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
     }
     for (std::size_t l = 0; l < 4; ++l) {
       const double shifted = f.value[l] - tip.at_node[l];
-      functions.push_back({tip.first + 2 * LocalId(l), n.value[tip.corner] * shifted,
-                           shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l]});
+      functions.push_back({tip.first + (tip.modes ? 0 : 2 * LocalId(l)),
+                           n.value[tip.corner] * shifted,
+                           shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l],
+                           tip.modes ? &tip.zone->modes[l] : nullptr});
     }
   }
 }
@@ -90,7 +118,8 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
 std::vector<double> PartBasis::tip_signature() const {
   std::vector<double> signature;
   for (const TipShape& tip : tips_) {
-    signature.push_back(double(tip.corner));
+    signature.insert(signature.end(),
+                     {double(tip.corner), tip.modes ? 1.0 : 0.0, double(int(tip.side))});
     for (const Vec2& p : tip.zone->frame.path()) signature.insert(signature.end(), {p.x(), p.y()});
   }
   return signature;
@@ -102,7 +131,11 @@ std::vector<SingularPlace> PartBasis::tip_places() const {
   for (const TipShape& tip : tips_) {
     if (tip.zone == known) continue;
     known = tip.zone;
-    places.push_back({(known->frame.tip() - corner_).cwiseQuotient(size_), known->frame.bends()});
+    // modes live farther from the tip, where a bend is a small kink: not worth following exactly
+    const bool follows = std::any_of(
+        tips_.begin(), tips_.end(), [&](const TipShape& t) { return t.zone == known && !t.modes; });
+    places.push_back({(known->frame.tip() - corner_).cwiseQuotient(size_),
+                      follows ? known->frame.bends() : std::vector<double>()});
   }
   return places;
 }
@@ -110,7 +143,7 @@ std::vector<SingularPlace> PartBasis::tip_places() const {
 FieldValue field_value(const std::vector<BasisFunction>& functions, std::span<const double> state) {
   FieldValue value;
   for (const BasisFunction& f : functions) {
-    const Vec2 v(state[std::size_t(f.unknown)], state[std::size_t(f.unknown) + 1]);
+    const Vec2 v = f.moved({state[std::size_t(f.unknown)], state[std::size_t(f.unknown) + 1]});
     value.displacement += f.value * v;
     value.gradient += v * f.gradient.transpose();
   }

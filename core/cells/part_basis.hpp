@@ -13,11 +13,24 @@
 
 namespace cdca {
 
-/// One scalar function; it carries the unknowns `unknown` (x) and `unknown + 1` (y).
+/// One scalar function; it carries the unknowns `unknown` and `unknown + 1`.
 struct BasisFunction {
   LocalId unknown = 0;
   double value = 0.0;
   Vec2 gradient{0, 0};  ///< 1/m
+  /// Columns: which way the two unknowns move. Null: x and y.
+  const Eigen::Matrix2d* directions = nullptr;
+
+  Vec2 moved(const Vec2& unknowns) const {
+    return directions ? Vec2(*directions * unknowns) : unknowns;
+  }
+  /// What a force in x and y is to the two unknowns.
+  Vec2 along(const Vec2& force) const {
+    return directions ? Vec2(directions->transpose() * force) : force;
+  }
+  Eigen::Matrix2d columns() const {
+    return directions ? *directions : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
+  }
 };
 
 /// What the basis needs to know; borrowed.
@@ -29,13 +42,15 @@ struct BasisContext {
 };
 
 /// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq.
-/// 4-5, in the basis of pieces).
+/// 4-5, in the basis of pieces); cells with mode functions have b = sum over modes of V_l k_i. A
+/// piece on one side of the crack takes F_l(x_i) as continued from there: else the functions would
+/// be nearly a multiple of N_i chi_(i,p) on the side where the node is not.
 class PartBasis {
  public:
   PartBasis(const BasisContext& context, GridIndex element, int part);
 
   bool has_tip_functions() const { return !tips_.empty(); }
-  /// First unknown of every function, in the order in which evaluate() lists them.
+  /// First unknowns of all functions, each once, in the order in which evaluate() lists them.
   std::vector<LocalId> unknowns() const;
   /// p: inside the element, [0, 1]. For a point on a crack, `inside` is a place near it that tells
   /// which face is meant. Functions of cells that this rank does not hold are left out; they vanish
@@ -44,7 +59,8 @@ class PartBasis {
                 const Vec2* inside = nullptr) const;
   /// Numbers that tell near-tip functions apart: which corners carry them, and their crack's path.
   std::vector<double> tip_signature() const;
-  /// Tips whose functions act here, inside-the-element coordinates.
+  /// Tips whose functions act here, inside-the-element coordinates, with the bends that quadrature
+  /// has to follow.
   std::vector<SingularPlace> tip_places() const;
 
  private:
@@ -52,7 +68,9 @@ class PartBasis {
     std::size_t corner;
     const TipZone* zone;
     LocalId first;
-    std::array<double, 4> at_node;
+    bool modes;
+    FaceSide side;                  ///< of the piece
+    std::array<double, 4> at_node;  ///< as seen from there
   };
   Vec2 position(const Vec2& p) const;
   /// Slivers take the field across the crack: from there they are looked at.

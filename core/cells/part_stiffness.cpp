@@ -51,6 +51,23 @@ GradientProducts gradient_products(const PartBasis& basis, Eigen::Index count, c
   return sum;
 }
 
+/// Lists the unknowns of the functions, each once. What a unit of each of them moves: x and y of
+/// function 0, of function 1, and so on.
+Eigen::MatrixXd directions_of(const std::vector<BasisFunction>& functions,
+                              std::vector<LocalId>& unknowns) {
+  for (const BasisFunction& f : functions) {
+    if (std::find(unknowns.begin(), unknowns.end(), f.unknown) != unknowns.end()) continue;
+    unknowns.insert(unknowns.end(), {f.unknown, f.unknown + 1});
+  }
+  Eigen::MatrixXd moved =
+      Eigen::MatrixXd::Zero(2 * Eigen::Index(functions.size()), Eigen::Index(unknowns.size()));
+  for (std::size_t k = 0; k < functions.size(); ++k) {
+    const auto first = std::find(unknowns.begin(), unknowns.end(), functions[k].unknown);
+    moved.block<2, 2>(2 * Eigen::Index(k), first - unknowns.begin()) = functions[k].columns();
+  }
+  return moved;
+}
+
 }  // namespace
 
 PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int part,
@@ -59,14 +76,11 @@ PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int
   const CutElement* cut = context.cuts.find(element);
   const Vec2& h = context.mesh.grid().element_size();
   PartStiffness stiffness;
-  const auto first = basis.unknowns();
-  for (const LocalId u : first) {
-    stiffness.unknowns.push_back(u);
-    stiffness.unknowns.push_back(u + 1);
-  }
   const auto points = basis.has_tip_functions() ? tip_quadrature(cut, part, basis.tip_places(), h)
                                                 : plain_quadrature(cut, part);
-  const auto count = Eigen::Index(first.size());
+  std::vector<BasisFunction> functions;
+  basis.evaluate(Vec2(0, 0), functions);
+  const auto count = Eigen::Index(functions.size());
   const GradientProducts p = gradient_products(basis, count, h, points);
   // B^T D B for B = (N,x 0; 0 N,y; N,y N,x), block by block
   stiffness.matrix.resize(2 * count, 2 * count);
@@ -79,6 +93,9 @@ PartStiffness part_stiffness(const BasisContext& context, GridIndex element, int
       stiffness.matrix(2 * i + 1, 2 * j + 1) = d(1, 1) * yy + d(2, 2) * xx;
     }
   }
+  const Eigen::MatrixXd of_unknowns = directions_of(functions, stiffness.unknowns);
+  if (of_unknowns.cols() < of_unknowns.rows())
+    stiffness.matrix = of_unknowns.transpose() * stiffness.matrix * of_unknowns;
   return stiffness;
 }
 

@@ -2,16 +2,25 @@
 #include "core/cells/stiffness_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace cdca {
 
 double StiffnessRows::times(std::size_t row, std::span<const double> x, LocalId end) const {
-  double sum = 0.0;
-  for (std::size_t k = start[row]; k < start[row + 1]; ++k) {
-    if (column[k] < end) sum += value[k] * x[std::size_t(column[k])];
+  // several sums side by side: near tips large products cancel, and a single long sum would round
+  // them all at the size of the largest
+  constexpr std::size_t lanes = 8;
+  std::array<double, lanes> sums{};
+  std::size_t k = start[row];
+  const std::size_t last = start[row + 1];
+  for (; k + lanes <= last && column[k + lanes - 1] < end; k += lanes) {
+    for (std::size_t l = 0; l < lanes; ++l) sums[l] += value[k + l] * x[std::size_t(column[k + l])];
   }
-  return sum;
+  for (; k < last; ++k) {
+    if (column[k] < end) sums[k % lanes] += value[k] * x[std::size_t(column[k])];
+  }
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
 std::ptrdiff_t StiffnessRows::find(LocalId u) const {

@@ -19,6 +19,10 @@ struct TipZone {
   int end = 0;
   TipFrame frame;
   std::unordered_set<GlobalId> nodes;
+  /// Those of them whose near-tip functions stand in the proportions of modes I and II.
+  std::unordered_set<GlobalId> with_modes;
+  /// Coefficients of the four functions, x and y, in a unit of mode I and of mode II.
+  std::array<Eigen::Matrix2d, 4> modes;
   std::unordered_map<GlobalId, std::vector<bool>> parts;  ///< element -> acts on part
 
   bool acts_on(GlobalId element, int part) const {
@@ -27,12 +31,28 @@ struct TipZone {
   }
 };
 
+/// Which cells get near-tip functions.
+struct ZoneRule {
+  double radius = 0.0;   ///< m; 0: the corners of the element of the tip only
+  double kolosov = 0.0;  ///< of the material
+  /// With less room than this to another crack or the rim, in elements, the field changes faster
+  /// than they can follow: then cells in reach (elements) that have no near-tip functions of this
+  /// tip yet take its fields of modes I and II.
+  double little_room = 4.0;
+  double reach_with_little_room = 5.0;
+  /// Cells that more tips than this want to give their fields to take none of these fields: where
+  /// tips crowd so, they would be many unknowns, and elements resolve little anyway.
+  int most_tips = 2;
+};
+
 /// The zones of all active tips, the same on every rank: in order of crack and end.
 ///
-/// Cells: the corners of every element that holds the tip (also on its rim), and all nodes within
-/// tip_radius (m). Left out are nodes whose support reaches to where the functions would open
-/// uncracked material (TipFrame::valid_radius) and nodes with no part of their support in reach.
+/// Cells: the corners of every element that holds the tip (also on its rim), all nodes within the
+/// radius, and with little room those in reach of which at least half of the support can be reached
+/// from the tip without crossing a crack. Left out are nodes whose support reaches to where the
+/// functions would open uncracked material (TipFrame::valid_radius) and nodes with no part of their
+/// support in reach.
 std::vector<TipZone> find_tip_zones(const ElementCuts& cuts, const std::vector<Crack>& cracks,
-                                    double tip_radius);
+                                    const ZoneRule& rule);
 
 }  // namespace cdca

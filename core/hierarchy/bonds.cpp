@@ -20,7 +20,7 @@ FaceSpot spot_of(const Bond& bond, const std::vector<FacePoint>& points, const V
       const double share = p.weight / spot.weight;
       for (std::size_t a = 0; a < 4; ++a) {
         FaceFunction& f = spot.functions[first + a];
-        f.jump += sign * share * n.value[a];
+        f.jump += sign * share * n.value[a] * Eigen::Matrix2d::Identity();
         f.traction += share * side_share * traction_of(n.gradient[a], face.normal, elastic);
       }
     };

@@ -159,7 +159,8 @@ void ContactSpots::add_forces(const ContactPatches& patches, LocalId owned,
     const Vec2 by_stress = along.y() * spot.geometry.tangent + across.y() * spot.geometry.normal;
     for (const FaceFunction& f : spot.at.functions) {
       if (f.unknown >= owned) continue;
-      const Vec2 force = -spot.at.weight * (f.jump * by_jump + f.traction.transpose() * by_stress);
+      const Vec2 force =
+          -spot.at.weight * (f.jump.transpose() * by_jump + f.traction.transpose() * by_stress);
       forces[std::size_t(f.unknown)] += force.x();
       forces[std::size_t(f.unknown) + 1] += force.y();
     }

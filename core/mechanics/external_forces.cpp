@@ -20,8 +20,9 @@ class ForceCollector {
     basis.evaluate(p, functions_, inside);
     for (const BasisFunction& f : functions_) {
       if (f.unknown >= c_.unknowns.owned()) continue;
-      forces_[std::size_t(f.unknown)] += f.value * force.x();
-      forces_[std::size_t(f.unknown) + 1] += f.value * force.y();
+      const Vec2 share = f.value * f.along(force);
+      forces_[std::size_t(f.unknown)] += share.x();
+      forces_[std::size_t(f.unknown) + 1] += share.y();
     }
   }
 

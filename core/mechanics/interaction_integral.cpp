@@ -56,14 +56,17 @@ class DomainWeight {
   std::array<double, 4> at_corner_{};
 };
 
-double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
-  return (a + nearest_fraction(a, b, x) * (b - a) - x).norm();
+/// Is one of the tips nearer to the element than its larger side is long? Farther away near-tip
+/// functions are smooth: six points a direction are exact to 1e-9.
+bool any_near(const std::vector<SingularPlace>& tips, const Vec2& h) {
+  return std::any_of(tips.begin(), tips.end(), [&](const SingularPlace& tip) {
+    const Vec2 nearest = tip.at.cwiseMax(0.0).cwiseMin(1.0);
+    return (tip.at - nearest).cwiseProduct(h).norm() < h.maxCoeff();
+  });
 }
 
-/// Does a segment prolong the straight crack behind the tip? To it, that is no other crack.
-bool prolongs(const TipFrame& frame, const Vec2& a, const Vec2& b, double limit) {
-  const Vec2 p = frame.local(a), q = frame.local(b);
-  return std::max(std::abs(p.y()), std::abs(q.y())) < limit && std::max(p.x(), q.x()) < limit;
+double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& x) {
+  return (a + nearest_fraction(a, b, x) * (b - a) - x).norm();
 }
 
 /// How far the domain of a tip may reach without meeting anything.
@@ -76,7 +79,7 @@ double free_radius(const StructuredGrid& grid, const std::vector<Crack>& cracks,
   for (const Crack& crack : cracks) {
     for (std::size_t k = 0; k < crack.segments(); ++k) {
       const Vec2 &a = crack.points[k], &b = crack.points[k + 1];
-      if (!prolongs(zone.frame, a, b, limit)) r = std::min(r, distance_to_segment(a, b, x));
+      if (!zone.frame.is_prolonged_by(a, b, limit)) r = std::min(r, distance_to_segment(a, b, x));
     }
     for (int end = 0; end < 2; ++end) {
       const double away = (crack.end_point(end) - x).norm();
@@ -147,7 +150,7 @@ class TipIntegral {
     // the kinks of near-tip functions at bends matter little under the smooth weight
     auto places = basis.tip_places();
     for (SingularPlace& place : places) place.bends.clear();
-    const auto points = basis.has_tip_functions()
+    const auto points = any_near(places, grid.element_size())
                             ? tip_quadrature(cut, part, places, grid.element_size())
                             : smooth_quadrature(cut, part, 6);
     for (const QuadraturePoint& point : points) {

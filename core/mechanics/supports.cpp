@@ -143,9 +143,10 @@ Supports::Supports(const BasisContext& c, const std::vector<BoundarySpec>& block
         held.try_emplace(u, std::move(unknown));
         // near-tip functions would bend the straight trace between the nodes
         for (const TipUnknowns& tip : c.unknowns.tips(key.first)) {
-          for (LocalId l = 0; l < 4; ++l) {
-            const LocalId v = tip.first + 2 * l + component;
-            held.try_emplace(v, HeldUnknown{v, b, component, {}});
+          // a mode moves both ways at once: it is held whole
+          for (LocalId l = tip.has_modes() ? 0 : component; l < tip.count;
+               l += tip.has_modes() ? 1 : 2) {
+            held.try_emplace(tip.first + l, HeldUnknown{tip.first + l, b, component, {}});
           }
         }
       }

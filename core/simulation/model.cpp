@@ -58,7 +58,7 @@ void Model::place_cracks() {
 }
 
 void Model::find_zones() {
-  zones_ = find_tip_zones(cuts_, registry_.cracks(), spec_.tip_radius);
+  zones_ = find_tip_zones(cuts_, registry_.cracks(), {spec_.tip_radius, material_.kolosov()});
   const auto laws = contact_laws();
   // what holds cohesive faces together leaves no singular field
   std::erase_if(zones_, [&](const TipZone& zone) {

@@ -53,7 +53,7 @@ void carry_state(const BasisContext& before, std::span<const double> old_state,
     }
     for (const TipUnknowns& tip : after.unknowns.tips(n)) {
       const TipUnknowns* old = same_tip(before, n, after.zones[std::size_t(tip.zone)]);
-      if (old) copy(old->first, tip.first, 8);
+      if (old && old->count == tip.count) copy(old->first, tip.first, tip.count);
     }
   }
 }

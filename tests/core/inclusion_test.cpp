@@ -25,7 +25,7 @@ class Body {
     for (const auto& points : cracks) registry_.add("", points);
     registry_.resolve_initial_meetings({Vec2(0, 0), Vec2(nx, ny)}, 1e-3);
     cuts_ = ElementCuts(grid_, CrackPaths(grid_, registry_.cracks()));
-    zones_ = find_tip_zones(cuts_, registry_.cracks(), tip_radius);
+    zones_ = find_tip_zones(cuts_, registry_.cracks(), {tip_radius, 2.0, 0.0});
     unknowns_ = CellUnknowns(mesh_, cuts_, zones_, alone_);
     std::mt19937 random(17);
     std::uniform_real_distribution<double> any(0, 1);

@@ -185,7 +185,7 @@ class PiecesParallel : public ::testing::TestWithParam<Owners> {
     for (int j = 0; j < blocks; ++j)
       for (int i = 0; i < blocks; ++i) owners.push_back(GetParam().owner(i, j, world().size()));
     mesh_ = LocalMesh(wide_, BlockPartition(wide_, block, owners), world().rank());
-    zones_ = find_tip_zones(cuts_, registry_.cracks(), 1.3);
+    zones_ = find_tip_zones(cuts_, registry_.cracks(), {1.3, 2.0});
     unknowns_ = CellUnknowns(mesh_, cuts_, zones_, world());
   }
   const StructuredGrid wide_{Vec2(0, 0), Vec2(8, 8), 8, 8};
@@ -197,7 +197,7 @@ class PiecesParallel : public ::testing::TestWithParam<Owners> {
 };
 
 TEST_P(PiecesParallel, GhostsHaveThePiecesOfTheirOwners) {
-  std::int64_t special = 0;
+  std::int64_t special = 0, with_modes = 0;
   for (LocalId n = 0; n < mesh_.node_count(); ++n) {
     const CellPieces whole = pieces_of(cuts_, mesh_.node(n));  // sees all cracks, on any rank
     std::vector<int> tips;
@@ -209,11 +209,17 @@ TEST_P(PiecesParallel, GhostsHaveThePiecesOfTheirOwners) {
     if (!cell) continue;
     EXPECT_EQ(cell->pieces, whole) << "node " << mesh_.node_id(n);
     std::vector<int> zones;
-    for (const TipUnknowns& tip : cell->tips) zones.push_back(tip.zone);
+    for (const TipUnknowns& tip : cell->tips) {
+      zones.push_back(tip.zone);
+      EXPECT_EQ(tip.has_modes(),
+                zones_[std::size_t(tip.zone)].with_modes.count(mesh_.node_id(n)) == 1);
+      with_modes += tip.has_modes();
+    }
     EXPECT_EQ(zones, tips) << "node " << mesh_.node_id(n);
     special += mesh_.owns(n);
   }
   EXPECT_GT(world().sum(special), 30);
+  EXPECT_GT(world().sum(with_modes), 10);
 }
 
 TEST_P(PiecesParallel, UnknownsAreNumberedOnceOwnOnesFirst) {
@@ -230,7 +236,9 @@ TEST_P(PiecesParallel, RanksHoldAllUnknownsTogether) {
   std::int64_t expected = 0;
   for (GlobalId id = 0; id < wide_.node_count(); ++id) {
     expected += 2 * pieces_of(cuts_, wide_.node_index(id)).count;
-    for (const TipZone& zone : zones_) expected += 8 * std::int64_t(zone.nodes.count(id));
+    for (const TipZone& zone : zones_)
+      expected +=
+          8 * std::int64_t(zone.nodes.count(id)) - 6 * std::int64_t(zone.with_modes.count(id));
   }
   EXPECT_EQ(world().sum(std::int64_t(unknowns_.owned())), expected);
 }

@@ -103,6 +103,7 @@ BlockPartition scattered(const StructuredGrid& grid, int ranks, int shift) {
 TEST(RanksParallel, MetisPartition) {
   for (const SolverMethod method : {SolverMethod::krylov, SolverMethod::multilevel}) {
     for (const double tip_radius : {0.0, 0.25}) {
+      if (method == SolverMethod::krylov && tip_radius > 0.0) continue;  // slow, and nothing new
       const CaseSpec spec = crowded_plate(tip_radius, method);
       Model model(spec, world(), world_partitioner());
       expect_same(on_one_rank(spec), answer_of(model));

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/tip_zone.hpp"
+
+#include "core/mechanics/williams.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cdca {
+namespace {
+
+/// The zones of cracks in a body of 30 x 30 elements of size one.
+std::vector<TipZone> zones_of(const std::vector<std::vector<Vec2>>& cracks, const ZoneRule& rule) {
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  CrackRegistry registry;
+  for (const auto& points : cracks) registry.add("", points);
+  registry.resolve_initial_meetings({Vec2(0, 0), Vec2(30, 30)}, 1e-3);
+  const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
+  return find_tip_zones(cuts, registry.cracks(), rule);
+}
+
+TEST(TipZoneTest, ModesAreTheFieldsOfWilliams) {
+  for (const bool plane_strain : {false, true}) {
+    const Material material{3.0e10, 0.3, plane_strain};
+    const auto zones = zones_of({{{4.0, 9.5}, {9.3, 12.2}}}, {0.0, material.kolosov()});
+    const TipZone& zone = zones.at(1);
+    Eigen::Matrix2d axes;
+    axes << zone.frame.tangent(), turned_left(zone.frame.tangent());
+    const auto displacement = [&](int mode, const Vec2& way) {
+      const TipPolar polar = zone.frame.polar(zone.frame.tip() + way);
+      Vec2 u(0, 0);
+      for (std::size_t l = 0; l < 4; ++l)
+        u += near_tip_functions(polar).value[l] * zone.modes[l].col(mode - 1);
+      const Vec2 exact = axes * williams_field(material, mode, polar.r, polar.theta).displacement;
+      return std::pair(u, exact);
+    };
+    for (const int mode : {1, 2}) {
+      // the same up to a factor, which is that of the first place
+      const auto [first, exact_first] = displacement(mode, Vec2(0.7, 0.4));
+      const double unit = first.norm() / exact_first.norm();
+      for (const Vec2& way : {Vec2(0.7, 0.4), Vec2(-0.2, 0.9), Vec2(-0.9, 0.1), Vec2(0.3, -1.4)}) {
+        const auto [u, exact] = displacement(mode, way);
+        EXPECT_LT((u - unit * exact).norm(), 1e-12 * u.norm());
+      }
+    }
+  }
+}
+
+TEST(TipZoneTest, CellsTakeModesWhereThereIsLittleRoom) {
+  const std::vector<Vec2> crack{{4.1, 14.6}, {14.4, 14.6}};
+  const ZoneRule rule{0.0, 2.0};
+  const auto alone = zones_of({crack}, rule);
+  EXPECT_EQ(alone.at(1).nodes.size(), 4u);
+  EXPECT_TRUE(alone.at(1).with_modes.empty());
+  // the other crack cuts some of the cells off
+  const auto beside = zones_of({crack, {{17.2, 5.3}, {17.2, 25.1}}}, rule);
+  EXPECT_TRUE(beside.at(0).with_modes.empty());
+  const TipZone& zone = beside.at(1);
+  EXPECT_EQ(zone.nodes.size(), zone.with_modes.size() + 4);
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  for (const GlobalId n : zone.with_modes) {
+    const Vec2 x = grid.node_position(grid.node_index(n));
+    EXPECT_LE((x - Vec2(14.4, 14.6)).norm(), rule.reach_with_little_room);
+    EXPECT_LT(x.x(), 17.2);
+  }
+  EXPECT_TRUE(zone.with_modes.count(grid.node({14, 19})));
+  EXPECT_FALSE(zone.with_modes.count(grid.node({14, 20})));
+  // the rim counts like another crack
+  EXPECT_FALSE(zones_of({{{3.4, 14.6}, {14.4, 14.6}}}, rule).at(0).with_modes.empty());
+  // what prolongs the crack behind the tip is no other crack
+  EXPECT_TRUE(zones_of({{{4.1, 14.6}, {12.0, 14.6}}, {{12.0, 14.6}, {14.4, 14.6}}}, rule)
+                  .back()
+                  .with_modes.empty());
+}
+
+TEST(TipZoneTest, CellsTakeNoModesWhereTipsCrowd) {
+  std::vector<std::vector<Vec2>> cracks;
+  for (int k = 0; k < 2; ++k) cracks.push_back({{4.1, 14.6 + 2 * k}, {14.4, 14.6 + 2 * k}});
+  const auto two = zones_of(cracks, {0.0, 2.0});
+  for (const TipZone& zone : two) EXPECT_FALSE(zone.with_modes.empty());
+  cracks.push_back({{14.4, 16.8}, {14.4, 25.1}});
+  const auto three = zones_of(cracks, {0.0, 2.0});
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  EXPECT_TRUE(two.at(3).with_modes.count(grid.node({13, 18})));
+  EXPECT_FALSE(three.at(3).with_modes.count(grid.node({13, 18})));
+  // the other ends are as before
+  EXPECT_EQ(three.at(2).with_modes, two.at(2).with_modes);
+}
+
+}  // namespace
+}  // namespace cdca
