@@ -10,11 +10,14 @@ namespace cdca {
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr std::size_t depth = 20;  ///< of mixing: about as many blocks may move as a whole
+constexpr double worse = 2.0;      ///< off by so many times more, a mixed step is taken back
 
 }  // namespace
 
 FaceRelaxation::FaceRelaxation(const ContactPatches& patches, std::vector<double> compliances,
-                               const std::vector<ContactGap>& gaps, double stiffness) {
+                               const std::vector<ContactGap>& gaps, double stiffness)
+    : mixing_(depth), before_(no_limit) {
   for (std::size_t k = 0; k < patches.patches().size(); ++k) {
     const ContactPatch& patch = patches.patches()[k];
     const ContactSpec& law = patches.law_of(patch);
@@ -62,29 +65,52 @@ std::vector<ContactAnswer> FaceRelaxation::answers() const {
   return answers;
 }
 
-double FaceRelaxation::answer(Side& side, double spring, double gap, double least, double most) {
-  constexpr double beyond = 1.6;  // over-relaxation
-  const double before = side.traction;
-  const double wanted = beyond * gap + (1 - beyond) * side.gap + side.traction / spring;
-  side.traction = std::clamp(wanted * spring / (1 + spring * side.compliance), least, most);
-  side.gap = wanted - side.traction / spring;
-  return std::max(std::abs(side.traction - before), spring * std::abs(gap - side.gap));
+void FaceRelaxation::answer_to(const std::vector<double>& values) {
+  auto value = values.begin();
+  const auto set = [&](Side& side, double spring, double least, double most) {
+    side.traction = std::clamp(*value * spring / (1 + spring * side.compliance), least, most);
+    side.gap = *value++ - side.traction / spring;
+  };
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    Face& face = faces_[k];
+    if (!face.relaxed) continue;
+    set(face.normal, face.spring, -no_limit, 0.0);
+    if (face.tangential.compliance == 0.0) continue;
+    const double pressed = face.normal.traction / laws_[k].normal_stiffness;
+    face.limit = face.normal.traction == 0.0 ? 0.0 : limit_at(laws_[k], pressed);
+    set(face.tangential, face.spring, -face.limit, face.limit);
+  }
 }
 
 double FaceRelaxation::take(const std::vector<ContactGap>& gaps) {
-  double off = 0.0, largest = 0.0;
+  constexpr double beyond = 1.6;  // over-relaxation
+  std::vector<double> tried, found;
+  double off = 0.0, largest = 0.0, squares = 0.0;
+  const auto add = [&](const Side& side, double spring, double gap) {
+    tried.push_back(side.gap + side.traction / spring);
+    found.push_back(tried.back() + beyond * (gap - side.gap));
+    const double apart = spring * (gap - side.gap);
+    off = std::max(off, std::abs(apart));
+    squares += apart * apart;
+  };
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     Face& face = faces_[k];
     face.found = gaps[k];
     if (!face.relaxed) continue;
-    Side &n = face.normal, &t = face.tangential;
-    off = std::max(off, answer(n, face.spring, gaps[k].normal * n.scale, -no_limit, 0.0));
-    largest = std::max(largest, -n.traction);
-    if (t.compliance == 0.0) continue;
-    face.limit = limit_at(laws_[k], n.traction / laws_[k].normal_stiffness);
-    if (n.traction == 0.0) face.limit = 0.0;
-    off = std::max(off,
-                   answer(t, face.spring, gaps[k].tangential * t.scale, -face.limit, face.limit));
+    largest = std::max(largest, -face.normal.traction);
+    add(face.normal, face.spring, gaps[k].normal * face.normal.scale);
+    if (face.tangential.compliance > 0.0)
+      add(face.tangential, face.spring, gaps[k].tangential * face.tangential.scale);
+  }
+  const double now = std::sqrt(squares);
+  if (now > worse * before_) {
+    mixing_.forget();
+    before_ = no_limit;
+    answer_to(plain_);
+  } else {
+    before_ = now;
+    plain_ = found;
+    answer_to(mixing_.next(tried, found));
   }
   return largest > 0.0 ? off / largest : 0.0;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/mechanics/contact_patches.hpp"
+#include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace cdca {
 /// that the spring r would have without its zero, and each face answers to it with the traction t
 /// and the gap z that fit its own law, r (v - z) = t. The stiffness stays the same all the time, so
 /// that one solve costs little. Friction counts with the pressure of the moment. It comes to rest
-/// for any convex law, but slowly: the last digits are for Newton steps.
+/// for any convex law, but slowly where blocks move as a whole; the values v of all faces are mixed
+/// with earlier ones, which makes up for it (A. Fu, J. Zhang and S. Boyd, SIAM J. Sci. Comput. 42,
+/// 2020), and where that has led farther off, the plain step is taken instead.
 class FaceRelaxation {
  public:
   /// compliances: of the body at every patch, m/Pa; gaps: of the state to start from; stiffness: of
@@ -33,7 +36,7 @@ class FaceRelaxation {
   std::vector<double> limits() const;
 
  private:
-  /// One direction of one face.
+  /// One direction of one face. Its traction and its gap follow from v.
   struct Side {
     double scale = 1.0;       ///< gap with the body's share over that of the face's spring alone
     double compliance = 0.0;  ///< of the face and the body, m/Pa; 0: no spring in this direction
@@ -50,12 +53,14 @@ class FaceRelaxation {
     ContactAnswer kept;  ///< where not relaxed
     ContactGap found;
   };
-  /// Answers to v with a traction between least and most. Returns how far gap and traction moved,
-  /// Pa.
-  static double answer(Side& side, double spring, double gap, double least, double most);
+  /// Sets tractions and gaps of all relaxed sides by their v, m, one side after the other.
+  void answer_to(const std::vector<double>& values);
 
   std::vector<ContactSpec> laws_;  ///< by patch
   std::vector<Face> faces_;
+  FixedPointMixing mixing_;
+  std::vector<double> plain_;  ///< v of the plain step from where mixing has set out, m
+  double before_;              ///< how far v was from at rest there, Pa
 };
 
 }  // namespace cdca

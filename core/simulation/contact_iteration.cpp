@@ -83,7 +83,11 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const bool exact = solves.slowest().residual <= part * tolerance;
     if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
     if (share < short_move && ++cut_short == short_moves) {
-      solves.relax_faces(weak = weakest);
+      // closer than this, rounding is larger than what mixing still gains
+      const double off = solves.relax_faces(std::max(enough, 1e-8), weak = weakest);
+      result.contact_unbalanced = off;
+      result.linear_solves = solves.count();
+      if (off <= enough && solves.slowest().residual <= part * tolerance) return solves.slowest();
       unbalanced = nearly;
       cut_short = 0;
     }

@@ -2,7 +2,7 @@
 #include "core/simulation/contact_solves.hpp"
 
 #include "core/mechanics/face_relaxation.hpp"
-#include "core/mechanics/limit_iteration.hpp"
+#include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <algorithm>
 
@@ -15,9 +15,13 @@ constexpr double of_change = 0.05;
 
 }  // namespace
 
-void ContactSolves::once(const Accuracy& accuracy) {
+void ContactSolves::set_forces_of_faces() {
   std::fill(given_.faces.begin(), given_.faces.end(), 0.0);
   model_.add_contact_forces(given_.faces);
+}
+
+void ContactSolves::once(const Accuracy& accuracy) {
+  set_forces_of_faces();
   const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
   ++count_;
   slowest_.converged = report.converged;
@@ -29,32 +33,36 @@ void ContactSolves::once(const Accuracy& accuracy) {
 void ContactSolves::turn_limits(double agreed, double part) {
   constexpr int most = 10;
   ContactPatches& contact = model_.contact();
-  LimitIteration turns;
+  FixedPointMixing turns(5);
   for (int k = 0; k < most; ++k) {
     const auto found = contact.limits_of_sliding(gaps());
     if (found.off <= agreed) return;
-    contact.slide_at(turns.next(contact.limits(), found.limits));
+    std::vector<double> limits = turns.next(contact.limits(), found.limits);
+    for (double& limit : limits) limit = std::max(0.0, limit);
+    contact.slide_at(limits);
     once({0.1 * part, of_change});
   }
 }
 
-void ContactSolves::relax_faces(double weak) {
+double ContactSolves::relax_faces(double enough, double weak) {
   constexpr int most = 1000;
-  constexpr double enough = 1e-4;  // Newton steps do the rest
   ContactPatches& contact = model_.contact();
   // about that of a block of a few elements: neither faces nor body count alone
   const double stiffness = 0.3 * model_.spec().material.young / model_.grid().smallest_side();
   FaceRelaxation faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
                        gaps(), stiffness);
-  for (int k = 0; k < most; ++k) {
+  double off = 1.0;
+  for (int k = 0; k < most && off > enough; ++k) {
     const auto answers = faces.answers();
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
     if (k == 0) model_.build_stiffness(weak);
     once({1.0, of_change});
-    if (faces.take(gaps()) <= enough) break;
+    off = faces.take(gaps());
   }
   contact.respond(faces.gaps(), faces.limits());
   model_.build_stiffness(weak);
+  set_forces_of_faces();
+  return off;
 }
 
 std::vector<ContactGap> ContactSolves::gaps() const {

@@ -17,9 +17,11 @@ class ContactSolves {
   /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
   /// agree to this part of the largest traction. part: of the solver's tolerance.
   void turn_limits(double agreed, double part);
-  /// Turns many faces at once (face_relaxation.hpp), and leaves springs, states and limits near
-  /// those of balance. weak: of the springs of loose bodies.
-  void relax_faces(double weak);
+  /// Turns many faces at once (face_relaxation.hpp), until their tractions are balanced to this
+  /// part of the largest or for as long as it is worth while, and leaves springs, states and limits
+  /// near those of balance. weak: of the springs of loose bodies. Returns how far from balance they
+  /// are.
+  double relax_faces(double enough, double weak);
 
   std::vector<ContactGap> gaps() const;
   int count() const { return count_; }
@@ -27,6 +29,8 @@ class ContactSolves {
   const SolverReport& slowest() const { return slowest_; }
 
  private:
+  void set_forces_of_faces();
+
   Model& model_;
   const EquilibriumSolver& solver_;
   double load_factor_;
