@@ -83,7 +83,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const bool exact = solves.slowest().residual <= part * tolerance;
     if (share == 1.0 && exact && unbalanced <= enough && pulled <= enough) return solves.slowest();
     if (share < short_move && ++cut_short == short_moves) {
-      // closer than this, rounding is larger than what mixing still gains
+      // relaxing further has cost more solves than the turns that it spared
       const double off = solves.relax_faces(std::max(enough, 1e-8), weak = weakest);
       result.contact_unbalanced = off;
       result.linear_solves = solves.count();

@@ -32,8 +32,9 @@ void ContactSolves::once(const Accuracy& accuracy) {
 
 void ContactSolves::turn_limits(double agreed, double part) {
   constexpr int most = 10;
+  constexpr std::size_t kept = 5;  // of these turns
   ContactPatches& contact = model_.contact();
-  FixedPointMixing turns(5);
+  FixedPointMixing turns(kept);
   for (int k = 0; k < most; ++k) {
     const auto found = contact.limits_of_sliding(gaps());
     if (found.off <= agreed) return;
