@@ -98,6 +98,8 @@ inline constexpr auto tip_columns = [](auto&& visit) {
   visit(
       "K_from", "", [](auto& r) -> auto& { return r.k_from; });
   visit(
+      "K_radius", "m", [](auto& r) -> auto& { return r.k_radius; });
+  visit(
       "U_tension", "", [](auto& r) -> auto& { return r.u_tension; });
   visit(
       "U_shear", "", [](auto& r) -> auto& { return r.u_shear; });

@@ -56,13 +56,14 @@ std::vector<TableCell> history_row(const std::vector<std::string>& reaction_name
 }
 
 std::vector<TableCell> tip_row(const TipRecord& record) {
-  return {{"step", record.step},       {"cycle", record.cycle},
-          {"crack", record.crack},     {"end", record.end},
-          {"x", record.at.x()},        {"y", record.at.y()},
-          {"K_I", record.k1},          {"K_II", record.k2},
-          {"K_from", record.k_from},   {"U_tension", record.u_tension},
-          {"U_shear", record.u_shear}, {"angle_deg", record.angle_deg},
-          {"mode", record.mode},       {"growth", record.growth}};
+  return {{"step", record.step},        {"cycle", record.cycle},
+          {"crack", record.crack},      {"end", record.end},
+          {"x", record.at.x()},         {"y", record.at.y()},
+          {"K_I", record.k1},           {"K_II", record.k2},
+          {"K_from", record.k_from},    {"U_tension", record.u_tension},
+          {"U_shear", record.u_shear},  {"angle_deg", record.angle_deg},
+          {"mode", record.mode},        {"growth", record.growth},
+          {"K_radius", record.k_radius}};
 }
 
 std::string history_csv(const Summary& summary) {

@@ -28,6 +28,7 @@ void fill(TipRecord& tip, const TipAssessment& assessment) {
   tip.k1 = assessment.intensity.k1;
   tip.k2 = assessment.intensity.k2;
   tip.k_from = assessment.intensity.k1_fitted ? "fit" : "integral";
+  tip.k_radius = assessment.intensity.radius;
   tip.u_tension = j.u_tension;
   tip.u_shear = j.u_shear;
   tip.angle_deg =

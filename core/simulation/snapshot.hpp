@@ -74,6 +74,7 @@ struct TipRecord {
   double k1 = 0.0;                  ///< K_I, Pa m^1/2
   double k2 = 0.0;                  ///< K_II, Pa m^1/2
   std::string k_from = "integral";  ///< "integral", "fit"; empty for a tip that is not active
+  double k_radius = 0.0;  ///< of the domain of the integral, m; 0 for a tip that is not active
   double u_tension = 0.0;
   double u_shear = 0.0;
   double angle_deg =

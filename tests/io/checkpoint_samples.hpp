@@ -61,9 +61,9 @@ inline Checkpoint sample_checkpoint() {
 
 inline void expect_same(const TipRecord& a, const TipRecord& b) {
   EXPECT_EQ(std::tie(a.step, a.cycle, a.crack, a.end, a.at, a.state, a.partner, a.k1, a.k2,
-                     a.k_from, a.u_tension, a.u_shear, a.angle_deg, a.mode, a.growth),
+                     a.k_from, a.k_radius, a.u_tension, a.u_shear, a.angle_deg, a.mode, a.growth),
             std::tie(b.step, b.cycle, b.crack, b.end, b.at, b.state, b.partner, b.k1, b.k2,
-                     b.k_from, b.u_tension, b.u_shear, b.angle_deg, b.mode, b.growth));
+                     b.k_from, b.k_radius, b.u_tension, b.u_shear, b.angle_deg, b.mode, b.growth));
 }
 
 inline void expect_same(const RunStory& a, const RunStory& b) {

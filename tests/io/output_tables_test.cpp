@@ -134,7 +134,8 @@ TEST(OutputTables, HistoryBeforeTheFirstStepIsItsHeader) {
 
 TEST(OutputTables, TipsHaveTheColumnsOfTheContract) {
   EXPECT_EQ(tips_csv_header(),
-            "step,cycle,crack,end,x,y,K_I,K_II,K_from,U_tension,U_shear,angle_deg,mode,growth\n");
+            "step,cycle,crack,end,x,y,K_I,K_II,K_from,U_tension,U_shear,angle_deg,mode,growth,"
+            "K_radius\n");
   TipRecord tip;
   tip.step = 3;
   tip.cycle = 2;
@@ -149,8 +150,9 @@ TEST(OutputTables, TipsHaveTheColumnsOfTheContract) {
   tip.angle_deg = 70.5;
   tip.mode = "mixed";
   tip.growth = 0.001;
+  tip.k_radius = 0.0625;
   EXPECT_EQ(tips_csv_rows({tip}),
-            "3,2,1,1,0.25,-0.5,333333.3333333333,-7,fit,1.25,0.5,70.5,mixed,0.001\n");
+            "3,2,1,1,0.25,-0.5,333333.3333333333,-7,fit,1.25,0.5,70.5,mixed,0.001,0.0625\n");
   EXPECT_EQ(lines_of(tips_csv_rows({tip, tip, tip})).size(), 3u);
   EXPECT_EQ(tips_csv_rows({}), "");
 }

@@ -171,6 +171,21 @@ TEST(NearTheRim, StraightOn) {
   expect_as_on_the_finer_grid("rim, straight on", {{{-0.1, y}, {1 - 1.5 * h, y}}}, 1);
 }
 
+/// The results say how much of the domain was left.
+TEST(NearTheRim, TheDomainIsSmaller) {
+  CaseSpec spec = plate({-1, -1}, {1, 1}, coarse, coarse);
+  add_crack(spec, {{-0.1, 0.003}, {1 - 4.5 * h, 0.003}});
+  add_crack(spec, {{-0.8, 0.603}, {1 - 1.5 * h, 0.603}});
+  pull(spec, biaxial.stress);
+  const Solved s = solved(spec);
+  const auto tips = tips_of(*s.model);
+  ASSERT_EQ(tips.size(), 4u);
+  EXPECT_DOUBLE_EQ(tips[0].radius, 5 * h);
+  EXPECT_NEAR(tips[1].radius, 4.5 * h, 0.01 * h);
+  EXPECT_LT(tips[1].radius, 4.5 * h);
+  EXPECT_DOUBLE_EQ(tips[3].radius, 4 * h) << "never less: the formula holds across the rim";
+}
+
 /// By the reach of the near-tip functions.
 class SlowNearOthers : public ::testing::TestWithParam<double> {
  protected:
