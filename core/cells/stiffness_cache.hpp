@@ -2,33 +2,28 @@
 /// Part matrices kept from one growth cycle to the next.
 #pragma once
 
+#include "core/base/content_cache.hpp"
 #include "core/cells/part_stiffness.hpp"
-
-#include <unordered_map>
-#include <vector>
 
 namespace cdca {
 
+/// Adds all that a part of an element and the functions on it depend on: the cracks in the element
+/// and its near-tip functions.
+void add_part(const BasisContext& context, GridIndex element, int part, const PartBasis& basis,
+              Signature& signature);
+
 /// Matrices of elements near cracks, found again as long as the cracks in the element and the
-/// near-tip functions on it are bit for bit the same. What an increment touches differs, and only
-/// that is integrated anew.
+/// near-tip functions on it are bit for bit the same.
 class StiffnessCache {
  public:
-  /// Starts a new cycle: what is not asked for until the next one is forgotten.
-  void begin_cycle();
+  void begin_cycle() { matrices_.begin_cycle(); }
   PartStiffness of(const BasisContext& context, GridIndex element, int part,
                    const ElasticMatrix& elastic);
 
-  /// Parts integrated and parts found again since begin_cycle().
-  std::int64_t integrated() const { return integrated_; }
-  std::int64_t reused() const { return reused_; }
-
  private:
-  using Store = std::unordered_map<std::uint64_t, Eigen::MatrixXd>;
-  Store now_;
-  Store before_;
-  std::int64_t integrated_ = 0;
-  std::int64_t reused_ = 0;
+  /// A growth step is tried twice and taken back before it is taken: its matrices last as long.
+  static constexpr int cycles_of_a_step = 4;
+  ContentCache<Eigen::MatrixXd> matrices_{cycles_of_a_step};
 };
 
 }  // namespace cdca

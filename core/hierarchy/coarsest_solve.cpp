@@ -3,6 +3,10 @@
 
 #include "core/base/errors.hpp"
 
+#include <Eigen/OrderingMethods>
+
+#include <algorithm>
+
 namespace cdca {
 
 namespace {
@@ -24,9 +28,26 @@ std::vector<Entry> entries_of_all(Communicator& communicator, std::vector<Entry>
   return unpack<Entry>(all);
 }
 
+constexpr double outgrown = 1.2;  ///< a factor so many times larger is worth a new order
+
+void update(EliminationOrder& order, Eigen::Index size, const std::vector<Entry>& entries) {
+  if (order.place.size() == size && double(order.entries_now) <= outgrown * double(order.entries))
+    return;
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(entries.size());
+  for (const Entry& e : entries) triplets.emplace_back(e.row, e.column, 1.0);
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  Permutation eliminated;
+  Eigen::AMDOrdering<int>()(matrix.selfadjointView<Eigen::Lower>(), eliminated);
+  order.place = Permutation(eliminated.inverse()).indices();
+  order.entries = 0;
+}
+
 }  // namespace
 
-CoarsestSolve::CoarsestSolve(const CellStiffness& cells) : cells_(cells) {
+CoarsestSolve::CoarsestSolve(const CellStiffness& cells, EliminationOrder& order) : cells_(cells) {
   Communicator& communicator = cells.communicator();
   const auto own = std::size_t(cells.owned());
   std::vector<double> counts(std::size_t(communicator.size()), 0.0);
@@ -58,16 +79,23 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells) : cells_(cells) {
     }
   }
   entries = entries_of_all(communicator, std::move(entries));
+  const auto size = Eigen::Index(total_);
+  update(order, size, entries);
+  place_ = order.place;
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(entries.size());
-  for (const Entry& e : entries) triplets.emplace_back(e.row, e.column, e.value);
-  const auto size = Eigen::Index(total_);
+  for (const Entry& e : entries) {
+    const auto [low, high] = std::minmax(place_[e.row], place_[e.column]);
+    triplets.emplace_back(high, low, e.value);
+  }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   factor_.compute(matrix);
   if (factor_.info() != Eigen::Success) {
     throw SolveError("the stiffness of the coarsest cells could not be factored");
   }
+  order.entries_now = factor_.matrixL().nestedExpression().nonZeros();
+  if (order.entries == 0) order.entries = order.entries_now;
 }
 
 void CoarsestSolve::solve(std::span<const double> forces, std::span<double> moves) const {
@@ -76,8 +104,11 @@ void CoarsestSolve::solve(std::span<const double> forces, std::span<double> move
   all.segment(Eigen::Index(first_), own) = Eigen::Map<const Eigen::VectorXd>(forces.data(), own);
   for (const LocalId u : cells_.held()) all[Eigen::Index(first_) + u] = 0.0;
   cells_.communicator().sum(std::span<double>(all.data(), total_));
-  all = factor_.solve(all).eval();
-  Eigen::Map<Eigen::VectorXd>(moves.data(), own) = all.segment(Eigen::Index(first_), own);
+  Eigen::VectorXd placed(all.size());
+  for (Eigen::Index u = 0; u < all.size(); ++u) placed[place_[u]] = all[u];
+  placed = factor_.solve(placed).eval();
+  for (Eigen::Index u = 0; u < own; ++u)
+    moves[std::size_t(u)] = placed[place_[Eigen::Index(first_) + u]];
 }
 
 }  // namespace cdca

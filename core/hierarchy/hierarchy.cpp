@@ -82,7 +82,9 @@ class Hierarchy::Level final : public Scale {
     plain_ = PlainCells(*mesh_, *unknowns_, *cells_, plain, plans.near_cracks);
     windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors);
   }
-  void set_coarsest() { coarsest_ = std::make_unique<CoarsestSolve>(*cells_); }
+  void set_coarsest(EliminationOrder& order) {
+    coarsest_ = std::make_unique<CoarsestSolve>(*cells_, order);
+  }
 
   const CoarseParts* parts() const { return parts_.get(); }
   const CellStiffness& stiffness() const { return *cells_; }
@@ -135,7 +137,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic, finest.faces);
   levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
   if (meshes_.empty()) {
-    levels_[0]->set_coarsest();
+    levels_[0]->set_coarsest(order_);
     return;
   }
   const PlainStiffness element = plain_stiffness(basis.mesh.grid().element_size(), finest.elastic);
@@ -159,7 +161,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
     level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), supports, communicator);
     if (coarsest) {
-      level.set_coarsest();
+      level.set_coarsest(order_);
     } else {
       level.set_smoother(plans, parts.plain(), factors_);
     }

@@ -37,7 +37,8 @@ class Hierarchy final : public Scales {
   /// Lays out the windows of the finest scale. Returns the cells that need rows of their own.
   std::vector<GlobalId> plan(const BasisContext& basis);
   /// Everything else, on the finest scale's cells. Meshes of coarse scales are kept from call to
-  /// call, and factors of windows that have not changed. Collective.
+  /// call, factors of windows that have not changed, and the order of elimination on the coarsest
+  /// scale. Collective.
   void build(const FinestScale& finest, const CellStiffness& cells);
 
   std::size_t count() const override { return levels_.size(); }
@@ -60,6 +61,7 @@ class Hierarchy final : public Scales {
   std::unique_ptr<ScaleParts> finest_parts_;
   std::vector<std::unique_ptr<Level, LevelDeleter>> levels_;
   WindowFactors factors_;
+  EliminationOrder order_;  ///< on the coarsest scale
 };
 
 }  // namespace cdca

@@ -4,54 +4,34 @@
 #include "core/base/errors.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <set>
 
 namespace cdca {
 
-void WindowFactors::begin_cycle() {
-  before_ = std::move(now_);
-  now_.clear();
-  made_ = reused_ = 0;
-}
-
 namespace {
 
-std::uint64_t content_hash(const Eigen::SparseMatrix<double>& m) {
-  std::uint64_t hash = 1469598103934665603ULL;
-  const auto add = [&hash](std::uint64_t bits) {
-    hash = (hash ^ bits) * 1099511628211ULL;
-    hash ^= hash >> 29;
-  };
-  add(std::uint64_t(m.rows()));
-  for (Eigen::Index c = 0; c <= m.cols(); ++c) add(std::uint64_t(m.outerIndexPtr()[c]));
+std::uint64_t signature_of(const Eigen::SparseMatrix<double>& m) {
+  Signature s;
+  s.add_bits(std::uint64_t(m.rows()));
+  for (Eigen::Index c = 0; c <= m.cols(); ++c) s.add_bits(std::uint64_t(m.outerIndexPtr()[c]));
   for (Eigen::Index k = 0; k < m.nonZeros(); ++k) {
-    std::uint64_t bits;
-    std::memcpy(&bits, m.valuePtr() + k, sizeof bits);
-    add(std::uint64_t(m.innerIndexPtr()[k]));
-    add(bits);
+    s.add_bits(std::uint64_t(m.innerIndexPtr()[k]));
+    s.add(m.valuePtr()[k]);
   }
-  return hash;
+  return s.value();
 }
 
 }  // namespace
 
 const WindowFactor& WindowFactors::of(const Eigen::SparseMatrix<double>& matrix) {
-  const std::uint64_t key = content_hash(matrix);
-  auto& place = now_[key];
-  if (place) return *place;
-  if (const auto old = before_.find(key); old != before_.end()) {
-    place = std::move(old->second);
-    ++reused_;
-    return *place;
-  }
-  ++made_;
-  place = std::make_unique<WindowFactor>(matrix);
-  if (place->info() != Eigen::Success) {
-    throw SolveError("the stiffness of cells near a crack could not be factored");
-  }
-  return *place;
+  return factors_.of(signature_of(matrix), [&] {
+    auto made = std::make_unique<WindowFactor>(matrix);
+    if (made->info() != Eigen::Success) {
+      throw SolveError("the stiffness of cells near a crack could not be factored");
+    }
+    return made;
+  });
 }
 
 /// Finds shares, collects the stiffness of every window on the rank that solves it, and lays down

@@ -2,13 +2,13 @@
 /// Exact solves for the cells near cracks, one colour of windows after the other.
 #pragma once
 
+#include "core/base/content_cache.hpp"
 #include "core/cells/cell_stiffness.hpp"
 #include "core/hierarchy/window_plan.hpp"
 
 #include <Eigen/SparseCholesky>
 
 #include <memory>
-#include <unordered_map>
 
 namespace cdca {
 
@@ -19,17 +19,13 @@ using WindowFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 /// needs no new one.
 class WindowFactors {
  public:
-  void begin_cycle();
+  void begin_cycle() { factors_.begin_cycle(); }
   const WindowFactor& of(const Eigen::SparseMatrix<double>& matrix);
-  std::int64_t made() const { return made_; }
-  std::int64_t reused() const { return reused_; }
+  std::int64_t made() const { return factors_.made(); }
+  std::int64_t reused() const { return factors_.reused(); }
 
  private:
-  using Store = std::unordered_map<std::uint64_t, std::unique_ptr<WindowFactor>>;
-  Store now_;
-  Store before_;
-  std::int64_t made_ = 0;
-  std::int64_t reused_ = 0;
+  ContentCache<WindowFactor> factors_;
 };
 
 /// The windows of one scale. Each is solved by one rank, also where it holds cells of others: these

@@ -4,8 +4,8 @@
 
 #include "core/cracks/crack_registry.hpp"
 #include "core/mechanics/external_forces.hpp"
+#include "core/mechanics/intensity_weights.hpp"
 #include "core/mechanics/material.hpp"
-#include "core/mechanics/williams.hpp"
 
 #include <functional>
 #include <vector>
@@ -47,10 +47,11 @@ using TipChoice = std::function<bool(int crack, int end)>;
 ///
 /// Where faces touch at the tip itself, their normal traction there is known to some percent only,
 /// and the integral weighs it with 1 / sqrt(r): K_I is fitted to the gap instead, and is all but 0.
-/// state: with ghosts.
+/// state: with ghosts. cache: of the same body, material and grid; what the displacements count for
+/// is found there where cracks and tips are as before.
 std::vector<StressIntensity> stress_intensities(
     const BasisContext& context, const std::vector<Crack>& cracks, const Material& material,
     const ExternalLoads& loads, std::span<const double> state, Communicator& communicator,
-    const TipChoice& wanted = {}, const DomainReach& reach = {});
+    IntensityCache& cache, const TipChoice& wanted = {}, const DomainReach& reach = {});
 
 }  // namespace cdca

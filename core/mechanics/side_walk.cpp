@@ -14,12 +14,21 @@ Vec2 SideGeometry::at(double t) const {
 
 SideGeometry geometry_of(Side side) {
   switch (side) {
-    case Side::bottom: return {0, 0, 1};
-    case Side::right: return {1, 1, 2};
-    case Side::top: return {2, 3, 2};
+    case Side::bottom: return {0, 0, 1, {0, -1}};
+    case Side::right: return {1, 1, 2, {1, 0}};
+    case Side::top: return {2, 3, 2, {0, 1}};
     case Side::left: break;
   }
-  return {3, 0, 3};
+  return {3, 0, 3, {-1, 0}};
+}
+
+std::vector<Side> sides_at(const StructuredGrid& grid, GridIndex element) {
+  std::vector<Side> sides;
+  if (element.i == 0) sides.push_back(Side::left);
+  if (element.i == grid.nx() - 1) sides.push_back(Side::right);
+  if (element.j == 0) sides.push_back(Side::bottom);
+  if (element.j == grid.ny() - 1) sides.push_back(Side::top);
+  return sides;
 }
 
 std::vector<GridIndex> elements_at(const LocalMesh& mesh, Side side) {

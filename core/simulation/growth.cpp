@@ -57,9 +57,7 @@ GrowthCriterion::GrowthCriterion(const Model& model) : spec_(model.spec().growth
 }
 
 std::vector<TipAssessment> GrowthCriterion::assess(const Model& model, double load_factor) const {
-  const auto intensities =
-      stress_intensities(model.basis(), model.registry().cracks(), model.material(),
-                         model.loads(load_factor), model.state(), model.communicator());
+  const auto intensities = model.stress_intensities(load_factor);
   std::vector<TipAssessment> tips;
   for (const StressIntensity& k : intensities) {
     TipAssessment tip{k, {}};
@@ -184,9 +182,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
         return p.correct && p.crack == crack && p.end == end;
       });
     };
-    const auto intensities = stress_intensities(model.basis(), model.registry().cracks(),
-                                                model.material(), model.loads(load_factor),
-                                                model.state(), model.communicator(), is_corrected);
+    const auto intensities = model.stress_intensities(load_factor, is_corrected);
     bool turned_any = false;
     for (GrowthPlan& plan : plans) {
       if (!plan.correct) continue;

@@ -140,12 +140,11 @@ double Model::accept_contact() {
 }
 
 void Model::build_stiffness(double weak_share) {
-  cache_.begin_cycle();
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);
   elastic_ = material_.elastic_matrix();
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
-  FinestElements elements(basis(), elastic_, cache_, faces);
+  FinestElements elements(basis(), elastic_, stiffness_cache_, faces);
   const bool multilevel = spec_.solver.method == SolverMethod::multilevel;
   stiffness_ = std::make_unique<CellStiffness>(
       mesh_, unknowns_, elements, held, weak,
@@ -159,6 +158,8 @@ void Model::lay_cracks(CrackRegistry registry) {
   const ElementCuts old_cuts = std::move(cuts_);
   const std::vector<TipZone> old_zones = std::move(zones_);
   const std::vector<double> old_state = std::move(state_);
+  stiffness_cache_.begin_cycle();
+  intensity_cache_.begin_cycle();
   registry_ = std::move(registry);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), &contact_);
@@ -287,6 +288,12 @@ ExternalLoads Model::loads(double s) const {
   ExternalLoads loads = loads_at(spec_.boundaries, spec_.domain.body_force, names, s);
   if (!contact_.empty()) loads.contact = &contact_;
   return loads;
+}
+
+std::vector<StressIntensity> Model::stress_intensities(double load_factor,
+                                                       const TipChoice& wanted) const {
+  return cdca::stress_intensities(basis(), registry_.cracks(), material_, loads(load_factor),
+                                  state_, communicator_, intensity_cache_, wanted);
 }
 
 FieldValue Model::field_at(const Vec2& x) const {

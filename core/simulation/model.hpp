@@ -8,6 +8,7 @@
 #include "core/hierarchy/hierarchy.hpp"
 #include "core/mechanics/contact_spots.hpp"
 #include "core/mechanics/external_forces.hpp"
+#include "core/mechanics/interaction_integral.hpp"
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
 #include "core/simulation/case_spec.hpp"
@@ -87,6 +88,10 @@ class Model {
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
   const CellStiffness& stiffness() const { return *stiffness_; }
+  /// K of the active tips under the loads of a load factor, in the state as it is. wanted: which
+  /// tips; empty for all. Collective.
+  std::vector<StressIntensity> stress_intensities(double load_factor,
+                                                  const TipChoice& wanted = {}) const;
   /// The scales of the multilevel solver; empty for the other methods.
   const Hierarchy& hierarchy() const { return hierarchy_; }
   BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
@@ -136,7 +141,8 @@ class Model {
   std::unique_ptr<Bodies> bodies_;
   ContactPatches contact_;
   ContactSpots spots_;
-  StiffnessCache cache_;
+  StiffnessCache stiffness_cache_;
+  mutable IntensityCache intensity_cache_;
   ElasticMatrix elastic_;
   std::unique_ptr<CellStiffness> stiffness_;
   Hierarchy hierarchy_;

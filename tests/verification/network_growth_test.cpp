@@ -96,7 +96,8 @@ void expect_to_end_well(const Network& network) {
   std::cout << spec.cracks.size() << " cracks, " << spec.domain.cells[0] << " x "
             << spec.domain.cells[1] << ": " << s.status << " after " << s.steps.size() << " steps, "
             << s.events.size() << " events, iterations " << s.performance.solver_iterations << ", "
-            << s.performance.wall_s << " s, " << s.message << "\n";
+            << s.performance.linear_solves << " linear solves, " << s.performance.wall_s << " s, "
+            << s.message << "\n";
   EXPECT_TRUE(s.status == "completed" || s.status == "separated") << s.status;
   expect_finite(s);
   double before = 0.0, most = 0.0;

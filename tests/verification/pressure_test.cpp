@@ -11,8 +11,7 @@ namespace {
 
 std::vector<StressIntensity> intensities(const CaseSpec& spec) {
   const Solved s = solved(spec);
-  return stress_intensities(s.model->basis(), s.model->registry().cracks(), s.model->material(),
-                            s.model->loads(1.0), s.model->state(), world());
+  return s.model->stress_intensities(1.0);
 }
 
 CaseSpec pressurised(CaseSpec spec, double pressure) {

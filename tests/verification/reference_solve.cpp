@@ -124,10 +124,7 @@ CaseSpec spec_of(const ReferenceGeometry& g, const ReferenceLoad& load, const Re
   return spec;
 }
 
-std::vector<StressIntensity> tips_of(const Model& model) {
-  return stress_intensities(model.basis(), model.registry().cracks(), model.material(),
-                            model.loads(1.0), model.state(), model.communicator());
-}
+std::vector<StressIntensity> tips_of(const Model& model) { return model.stress_intensities(1.0); }
 
 SolvedReference solve_reference(const ReferenceGeometry& g, const ReferenceLoad& load,
                                 const ReferenceGrid& grid) {

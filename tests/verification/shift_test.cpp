@@ -50,9 +50,7 @@ Range shifted(double angle, int n) {
       spec.solver.tolerance = 1e-7;
       hold_rim(spec, westergaard_at(centre, angle));
       const Solved s = solved(spec);
-      const auto tips =
-          stress_intensities(s.model->basis(), s.model->registry().cracks(), s.model->material(),
-                             s.model->loads(1.0), s.model->state(), world());
+      const auto tips = s.model->stress_intensities(1.0);
       for (const StressIntensity& k : tips) {
         range.low = std::min(range.low, k.k1 / std::sqrt(pi));
         range.high = std::max(range.high, k.k1 / std::sqrt(pi));
