@@ -4,6 +4,7 @@
 ///
 /// usage: bench_growth_cycle NX CRACKS TIPS [RUNS]; prints one line of comma-separated values.
 #include "benchmarks/plate_case.hpp"
+#include "core/base/process_memory.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/simulation/equilibrium.hpp"
 
@@ -61,6 +62,7 @@ int measure(int nx, int cracks, int tips, int runs) {
 }  // namespace cdca::benchmarks
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   if (argc < 4) {
     std::puts(
         "nx,cracks,tips,unknowns,runs,cold_s,cold_iterations,set_up_s,cycle_s,cycle_iterations,"

@@ -5,6 +5,7 @@
 /// usage: bench_race_cholmod NX CRACKS [RUNS]; prints one line of comma-separated values.
 #include "benchmarks/assembled.hpp"
 #include "benchmarks/plate_case.hpp"
+#include "core/base/process_memory.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/simulation/equilibrium.hpp"
 
@@ -102,6 +103,7 @@ int race(int nx, int cracks, int runs) {
 }  // namespace cdca::benchmarks
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   if (argc < 3) {
     std::puts(
         "nx,cracks,unknowns,runs,iterations,multilevel_s,cholmod_s,ratio,cholmod_bytes_per_unknown,"

@@ -73,6 +73,7 @@ int measure(Communicator& ranks, int nx, int cracks, int runs) {
 }  // namespace cdca::benchmarks
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   const cdca::MpiEnvironment environment(argc, argv);
   if (argc < 3) {
     std::puts(

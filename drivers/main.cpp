@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/base/process_memory.hpp"
 #include "drivers/check_command.hpp"
 #include "drivers/command_line.hpp"
 #include "drivers/failure.hpp"
@@ -49,6 +50,7 @@ Outcome obey(const CommandLine& line, cdca::Communicator& ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   const CommandLine line = cdca::parse_command_line({argv, argv + argc});
   Outcome outcome;
   if (cdca::started_by_launcher()) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/base/process_memory.hpp"
 #include "parallel/metis_partition.hpp"
 #include "parallel/mpi_communicator.hpp"
 #include "world.hpp"
@@ -19,6 +20,7 @@ Partitioner world_partitioner() { return metis_partition; }
 }  // namespace cdca::testing
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   const cdca::MpiEnvironment environment(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   communicator = std::make_unique<cdca::MpiCommunicator>();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/base/process_memory.hpp"
 #include "world.hpp"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ Partitioner world_partitioner() {
 }  // namespace cdca::testing
 
 int main(int argc, char** argv) {
+  cdca::keep_freed_memory();
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// How much memory this process has used.
+/// The memory of this process.
 #pragma once
 
 #include <cstdint>
@@ -8,5 +8,10 @@ namespace cdca {
 
 /// Largest resident size so far, bytes; 0 where the system does not tell.
 std::int64_t peak_memory_bytes();
+
+/// Memory that is freed stays with the process, for what it asks for next. Every solve takes and
+/// frees arrays as long as the state; getting them from the system anew, page by page, can cost as
+/// much time as filling them with results. To be called before anything large is allocated.
+void keep_freed_memory();
 
 }  // namespace cdca
