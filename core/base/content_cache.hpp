@@ -32,6 +32,10 @@ class Signature {
   std::uint64_t hash_ = 1469598103934665603ULL;
 };
 
+/// A growth step is tried twice and taken back each time before it is taken: what it does not touch
+/// is found again after so many cycles.
+inline constexpr int cycles_of_a_step = 5;
+
 /// What an increment touches has another signature; only that is made anew.
 template <class Value>
 class ContentCache {

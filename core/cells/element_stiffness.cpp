@@ -2,6 +2,7 @@
 #include "core/cells/element_stiffness.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cdca {
 
@@ -14,18 +15,26 @@ FinestElements::FinestElements(const BasisContext& context, const ElasticMatrix&
       plain_(plain_stiffness(context.mesh.grid().element_size(), elastic)),
       special_(elements_near_cracks(context.mesh, context.cuts, context.unknowns)) {}
 
-std::vector<PartStiffness> FinestElements::parts(GridIndex element) {
+const FinestElements::Element& FinestElements::element(GridIndex e) {
+  const auto [it, is_new] = known_.try_emplace(context_.mesh.grid().element(e));
+  Element& element = it->second;
+  if (!is_new) return element;
+  for (int part = 0; part < context_.cuts.parts(e); ++part)
+    element.parts.push_back(cache_.of(context_, e, part, elastic_));
+  if (!springs_) return element;
+  const auto faces = context_.cuts.faces_of(e);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    element.faces.emplace_back(context_, faces[k], elastic_, springs_->on(e, k));
+  return element;
+}
+
+std::vector<PartStiffness> FinestElements::parts(GridIndex e) {
+  const Element& known = element(e);
   std::vector<PartStiffness> parts;
-  for (int part = 0; part < context_.cuts.parts(element); ++part) {
-    parts.push_back(cache_.of(context_, element, part, elastic_));
-  }
-  if (springs_) {
-    const auto faces = context_.cuts.faces_of(element);
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      const auto stretches = springs_->on(element, k);
-      if (!stretches.empty())
-        parts.push_back(face_stiffness(context_, faces[k], elastic_, stretches));
-    }
+  for (const auto& part : known.parts) parts.push_back({part.unknowns, *part.matrix});
+  for (std::size_t k = 0; k < known.faces.size(); ++k) {
+    PartStiffness face = known.faces[k].stiffness(springs_->on(e, k));
+    if (!face.unknowns.empty()) parts.push_back(std::move(face));
   }
   return parts;
 }

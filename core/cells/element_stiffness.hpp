@@ -5,6 +5,7 @@
 #include "core/cells/face_stiffness.hpp"
 #include "core/cells/stiffness_cache.hpp"
 
+#include <unordered_map>
 #include <vector>
 
 namespace cdca {
@@ -25,7 +26,7 @@ class ElementStiffness {
   virtual std::vector<PartStiffness> parts(GridIndex element) = 0;
 };
 
-/// The elements of the grid itself.
+/// The elements of the grid itself, as long as the cracks stay as they are; springs may change.
 class FinestElements final : public ElementStiffness {
  public:
   /// springs: between touching faces; null for none.
@@ -36,6 +37,14 @@ class FinestElements final : public ElementStiffness {
   std::vector<PartStiffness> parts(GridIndex element) override;
 
  private:
+  /// What does not depend on springs.
+  struct Element {
+    std::vector<StiffnessCache::Found> parts;
+    std::vector<FaceSpots> faces;
+  };
+  const Element& element(GridIndex e);
+
+  std::unordered_map<GlobalId, Element> known_;
   BasisContext context_;
   ElasticMatrix elastic_;
   StiffnessCache& cache_;

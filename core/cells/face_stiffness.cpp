@@ -199,21 +199,22 @@ void FaceBasis::add_functions(const FacePoint& point, double share, FaceSpot& sp
   add(minus_, m, m - across, -1.0, 1 - geometry_.plus_share);
 }
 
-PartStiffness face_stiffness(const BasisContext& context, const CrackFace& face,
-                             const ElasticMatrix& elastic,
-                             const std::vector<FaceStretch>& springs) {
+FaceSpots::FaceSpots(const BasisContext& context, const CrackFace& face,
+                     const ElasticMatrix& elastic, const std::vector<FaceStretch>& stretches)
+    : geometry_(context.cuts, face, elastic) {
   const FaceBasis basis(context, face, elastic);
+  for (const FaceStretch& s : stretches) spots_.push_back(basis.spot(s.from, s.to));
+}
+
+PartStiffness FaceSpots::stiffness(const std::vector<FaceStretch>& springs) const {
   PartStiffness stiffness;
-  for (const FaceStretch& s : springs) {
-    const FaceSpot spot = basis.spot(s.from, s.to);
-    if (stiffness.unknowns.empty()) {
-      for (const FaceFunction& f : spot.functions)
-        stiffness.unknowns.insert(stiffness.unknowns.end(), {f.unknown, f.unknown + 1});
-      const auto size = Eigen::Index(2 * spot.functions.size());
-      stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
-    }
-    add_springs(spot, basis.geometry(), s, stiffness.matrix);
-  }
+  if (spots_.empty()) return stiffness;
+  for (const FaceFunction& f : spots_.front().functions)
+    stiffness.unknowns.insert(stiffness.unknowns.end(), {f.unknown, f.unknown + 1});
+  const auto size = Eigen::Index(stiffness.unknowns.size());
+  stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t k = 0; k < spots_.size(); ++k)
+    add_springs(spots_[k], geometry_, springs[k], stiffness.matrix);
   return stiffness;
 }
 

@@ -133,8 +133,17 @@ class FaceBasis {
   mutable std::vector<BasisFunction> side_;
 };
 
-/// Stiffness of the springs on a face over all unknowns of both sides.
-PartStiffness face_stiffness(const BasisContext& context, const CrackFace& face,
-                             const ElasticMatrix& elastic, const std::vector<FaceStretch>& springs);
+/// The spots of a face's stretches, ready for any springs.
+class FaceSpots {
+ public:
+  FaceSpots(const BasisContext& context, const CrackFace& face, const ElasticMatrix& elastic,
+            const std::vector<FaceStretch>& stretches);
+  /// Stiffness of springs on the same stretches, over all unknowns of both sides.
+  PartStiffness stiffness(const std::vector<FaceStretch>& springs) const;
+
+ private:
+  FaceGeometry geometry_;
+  std::vector<FaceSpot> spots_;
+};
 
 }  // namespace cdca

@@ -15,16 +15,15 @@ void add_part(const BasisContext& c, GridIndex e, int part, const PartBasis& bas
   s.add(basis.tip_signature());
 }
 
-PartStiffness StiffnessCache::of(const BasisContext& context, GridIndex element, int part,
-                                 const ElasticMatrix& elastic) {
+StiffnessCache::Found StiffnessCache::of(const BasisContext& context, GridIndex element, int part,
+                                         const ElasticMatrix& elastic) {
   const PartBasis basis(context, element, part);
   Signature signature;
   add_part(context, element, part, basis, signature);
-  PartStiffness found;
-  found.matrix = matrices_.of(signature.value(), [&] {
-    return std::make_unique<Eigen::MatrixXd>(
-        part_stiffness(context, element, part, elastic).matrix);
-  });
+  Found found{{}, &matrices_.of(signature.value(), [&] {
+                return std::make_unique<Eigen::MatrixXd>(
+                    part_stiffness(context, element, part, elastic).matrix);
+              })};
   for (const LocalId first : basis.unknowns()) {
     found.unknowns.push_back(first);
     found.unknowns.push_back(first + 1);

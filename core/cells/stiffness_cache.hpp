@@ -17,12 +17,14 @@ void add_part(const BasisContext& context, GridIndex element, int part, const Pa
 class StiffnessCache {
  public:
   void begin_cycle() { matrices_.begin_cycle(); }
-  PartStiffness of(const BasisContext& context, GridIndex element, int part,
-                   const ElasticMatrix& elastic);
+  /// The matrix stays where it is until the next cycle.
+  struct Found {
+    std::vector<LocalId> unknowns;
+    const Eigen::MatrixXd* matrix;
+  };
+  Found of(const BasisContext& context, GridIndex element, int part, const ElasticMatrix& elastic);
 
  private:
-  /// A growth step is tried twice and taken back before it is taken: its matrices last as long.
-  static constexpr int cycles_of_a_step = 4;
   ContentCache<Eigen::MatrixXd> matrices_{cycles_of_a_step};
 };
 

@@ -172,6 +172,22 @@ class ElementSum {
 
 }  // namespace
 
+void IntegralDomain::for_each_element(
+    const LocalMesh& mesh, const std::function<void(GridIndex, const DomainWeight&)>& visit) const {
+  const StructuredGrid& grid = mesh.grid();
+  const Vec2 reach = radius * grid.element_size().cwiseInverse() + Vec2(1, 1);
+  const Vec2 centre = grid.to_grid(zone.frame.tip());
+  const GridIndex low = grid.element_at(centre - reach), high = grid.element_at(centre + reach);
+  for (int j = low.j; j <= high.j; ++j) {
+    for (int i = low.i; i <= high.i; ++i) {
+      const GridIndex e{i, j};
+      if (!mesh.evaluates(e) || mesh.find_element(e) < 0) continue;
+      const DomainWeight q(grid, e, zone.frame.tip(), radius);
+      if (!q.nothing()) visit(e, q);
+    }
+  }
+}
+
 bool IntegralDomain::on_straight_part(const StructuredGrid& grid, const CrackFace& face) const {
   if (face.crack != zone.crack) return false;
   for (const Vec2& end : {face.from, face.to}) {
@@ -194,6 +210,27 @@ Eigen::Matrix2d IntegralDomain::axes() const {
   axes.row(0) = zone.frame.tangent();
   axes.row(1) = turned_left(zone.frame.tangent());
   return axes;
+}
+
+const std::vector<IntensityCache::Weight>& IntensityCache::of(const BasisContext& c,
+                                                              const IntegralDomain& domain,
+                                                              const Material& material) {
+  const auto [it, is_new] = tips_.try_emplace({domain.zone.crack, domain.zone.end, domain.radius});
+  std::vector<Weight>& all = it->second;
+  if (!is_new) return all;
+  domain.for_each_element(c.mesh, [&](GridIndex e, const DomainWeight&) {
+    std::vector<PartBasis> bases;
+    for (int part = 0; part < c.cuts.parts(e); ++part) bases.emplace_back(c, e, part);
+    const ElementWeights& weights = of(c, e, bases, domain, material);
+    for (std::size_t part = 0; part < bases.size(); ++part) {
+      Eigen::Index row = 0;
+      for (const LocalId first : bases[part].unknowns()) {
+        for (LocalId u = first; u < first + 2; ++u, ++row)
+          all.push_back({u, weights[part](row, 0), weights[part](row, 1)});
+      }
+    }
+  });
+  return all;
 }
 
 const ElementWeights& IntensityCache::of(const BasisContext& c, GridIndex e,

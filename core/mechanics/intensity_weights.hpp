@@ -7,9 +7,14 @@
 #include "core/mechanics/material.hpp"
 
 #include <array>
+#include <functional>
+#include <map>
+#include <tuple>
 #include <vector>
 
 namespace cdca {
+
+class DomainWeight;
 
 /// Where the integral of one tip is taken.
 struct IntegralDomain {
@@ -17,6 +22,9 @@ struct IntegralDomain {
   double radius = 0.0;             ///< m
   std::array<bool, 4> held_sides;  ///< by Side: their tractions are those of the field
 
+  /// Calls visit(element, weight) for all elements in it that this rank evaluates.
+  void for_each_element(const LocalMesh& mesh,
+                        const std::function<void(GridIndex, const DomainWeight&)>& visit) const;
   /// Behind the tip the near-tip field leaves the faces free, as far as the crack is straight.
   bool on_straight_part(const StructuredGrid& grid, const CrackFace& face) const;
   /// Side of the tip's crack that a face lies on; plus: it is the crack's plus face.
@@ -32,14 +40,27 @@ using ElementWeights = std::vector<Eigen::MatrixX2d>;
 /// They do not depend on the loads, and change only where a crack or a tip near the element does.
 class IntensityCache {
  public:
-  void begin_cycle() { weights_.begin_cycle(); }
+  /// What one unknown adds to M of modes I and II.
+  struct Weight {
+    LocalId unknown;
+    double mode_1, mode_2;
+  };
+  /// To be called when cracks or unknowns change.
+  void begin_cycle() {
+    weights_.begin_cycle();
+    tips_.clear();
+  }
+  /// Those of all elements in the domain of a tip that this rank evaluates.
+  const std::vector<Weight>& of(const BasisContext& context, const IntegralDomain& domain,
+                                const Material& material);
+
+ private:
   /// bases: of the parts of the element.
   const ElementWeights& of(const BasisContext& context, GridIndex element,
                            const std::vector<PartBasis>& bases, const IntegralDomain& domain,
                            const Material& material);
 
- private:
-  static constexpr int cycles_of_a_step = 4;  ///< as of part matrices
+  std::map<std::tuple<int, int, double>, std::vector<Weight>> tips_;  ///< crack, end, radius
   ContentCache<ElementWeights> weights_{cycles_of_a_step};
 };
 

@@ -55,42 +55,21 @@ class TipIntegral {
 
   /// Adds the share of this rank: m[0] for mode I, m[1] for mode II.
   void add(std::span<const double> state, IntensityCache& cache, double m[2]) {
-    const Vec2 reach = domain_.radius * grid_.element_size().cwiseInverse() + Vec2(1, 1);
-    const Vec2 centre = grid_.to_grid(frame_.tip());
-    const GridIndex low = grid_.element_at(centre - reach), high = grid_.element_at(centre + reach);
-    for (int j = low.j; j <= high.j; ++j) {
-      for (int i = low.i; i <= high.i; ++i) {
-        const GridIndex e{i, j};
-        if (!c_.mesh.evaluates(e) || c_.mesh.find_element(e) < 0) continue;
-        const DomainWeight q(grid_, e, frame_.tip(), domain_.radius);
-        if (q.nothing()) continue;
-        add_field(e, state, cache, m);
-        add_body_force(e, q, m);
-        for (const CrackFace& face : c_.cuts.faces_at(e)) {
-          if (face.plus_element == e) add_face_tractions(e, face, true, q, m);
-          if (face.minus_element == e) add_face_tractions(e, face, false, q, m);
-        }
-        for (const Side side : sides_at(grid_, e)) add_side_tractions(e, side, q, m);
-      }
+    for (const auto& [unknown, mode_1, mode_2] : cache.of(c_, domain_, material_)) {
+      m[0] += mode_1 * state[std::size_t(unknown)];
+      m[1] += mode_2 * state[std::size_t(unknown)];
     }
+    domain_.for_each_element(c_.mesh, [&](GridIndex e, const DomainWeight& q) {
+      add_body_force(e, q, m);
+      for (const CrackFace& face : c_.cuts.faces_at(e)) {
+        if (face.plus_element == e) add_face_tractions(e, face, true, q, m);
+        if (face.minus_element == e) add_face_tractions(e, face, false, q, m);
+      }
+      for (const Side side : sides_at(grid_, e)) add_side_tractions(e, side, q, m);
+    });
   }
 
  private:
-  void add_field(GridIndex e, std::span<const double> state, IntensityCache& cache, double m[2]) {
-    std::vector<PartBasis> bases;
-    for (int part = 0; part < c_.cuts.parts(e); ++part) bases.emplace_back(c_, e, part);
-    const ElementWeights& weights = cache.of(c_, e, bases, domain_, material_);
-    for (std::size_t part = 0; part < bases.size(); ++part) {
-      Eigen::Index row = 0;
-      for (const LocalId first : bases[part].unknowns()) {
-        for (LocalId u = first; u < first + 2; ++u, ++row) {
-          for (int mode = 0; mode < 2; ++mode)
-            m[mode] += weights[part](row, mode) * state[std::size_t(u)];
-        }
-      }
-    }
-  }
-
   /// Takes w t_i u'_i,1 off; t in the axes of the tip.
   void take_off(const Vec2& x, FaceSide side, double w, const Vec2& t, double m[2]) const {
     const double r = frame_.local(x).norm();

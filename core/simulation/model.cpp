@@ -74,11 +74,16 @@ std::vector<ContactSpec> Model::contact_laws() const {
 }
 
 void Model::build_cells() {
+  stiffness_cache_.begin_cycle();
+  intensity_cache_.begin_cycle();
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
   supports_ = Supports(basis(), spec_.boundaries);
   state_.assign(std::size_t(unknowns_.count()), 0.0);
   spots_ = ContactSpots(basis(), contact_, material_.elastic_matrix());
   find_bodies();
+  elastic_ = material_.elastic_matrix();
+  elements_ = std::make_unique<FinestElements>(basis(), elastic_, stiffness_cache_,
+                                               contact_.empty() ? nullptr : &contact_);
 }
 
 void Model::find_bodies() {
@@ -142,12 +147,10 @@ double Model::accept_contact() {
 void Model::build_stiffness(double weak_share) {
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);
-  elastic_ = material_.elastic_matrix();
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
-  FinestElements elements(basis(), elastic_, stiffness_cache_, faces);
   const bool multilevel = spec_.solver.method == SolverMethod::multilevel;
   stiffness_ = std::make_unique<CellStiffness>(
-      mesh_, unknowns_, elements, held, weak,
+      mesh_, unknowns_, *elements_, held, weak,
       multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
       multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_);
   if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces}, *stiffness_);
@@ -158,8 +161,6 @@ void Model::lay_cracks(CrackRegistry registry) {
   const ElementCuts old_cuts = std::move(cuts_);
   const std::vector<TipZone> old_zones = std::move(zones_);
   const std::vector<double> old_state = std::move(state_);
-  stiffness_cache_.begin_cycle();
-  intensity_cache_.begin_cycle();
   registry_ = std::move(registry);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), &contact_);

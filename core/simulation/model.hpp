@@ -144,6 +144,7 @@ class Model {
   StiffnessCache stiffness_cache_;
   mutable IntensityCache intensity_cache_;
   ElasticMatrix elastic_;
+  std::unique_ptr<FinestElements> elements_;
   std::unique_ptr<CellStiffness> stiffness_;
   Hierarchy hierarchy_;
   std::vector<double> state_;
