@@ -137,7 +137,8 @@ def windows(rows):
 
 
 def facts_line(group, facts):
-    machine = f"{facts['processor']}, {facts['cores']} cores, {facts['cache']} of shared cache; {facts['compiler']}"
+    cache = f", {facts['cache']} of shared cache" if facts["cache"] else ""
+    machine = f"{facts['processor']}, {facts['cores']} cores{cache}; {facts['compiler']}"
     if group == "race" and facts["blas"]:
         machine += f", {facts['blas']}"
     if group == "windows":
