@@ -85,13 +85,14 @@ void FaceRelaxation::answer_to(const std::vector<double>& values) {
 double FaceRelaxation::take(const std::vector<ContactGap>& gaps) {
   constexpr double beyond = 1.6;  // over-relaxation
   std::vector<double> tried, found;
-  double off = 0.0, largest = 0.0, squares = 0.0;
+  double off = 0.0, largest = 0.0, widest = 0.0, squares = 0.0;
   const auto add = [&](const Side& side, double spring, double gap) {
     tried.push_back(side.gap + side.traction / spring);
     found.push_back(tried.back() + beyond * (gap - side.gap));
     const double apart = spring * (gap - side.gap);
     off = std::max(off, std::abs(apart));
     squares += apart * apart;
+    widest = std::max(widest, std::abs(spring * gap));
   };
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     Face& face = faces_[k];
@@ -112,7 +113,8 @@ double FaceRelaxation::take(const std::vector<ContactGap>& gaps) {
     plain_ = found;
     answer_to(mixing_.next(tried, found));
   }
-  return largest > 0.0 ? off / largest : 0.0;
+  const double scale = largest > 0.0 ? largest : widest;
+  return scale > 0.0 ? off / scale : 0.0;
 }
 
 std::vector<ContactGap> FaceRelaxation::gaps() const {

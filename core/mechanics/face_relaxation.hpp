@@ -29,7 +29,8 @@ class FaceRelaxation {
   /// What the faces are to answer with in the next solve: by patch.
   std::vector<ContactAnswer> answers() const;
   /// The gaps that this solve has led to. Returns how far gaps and tractions still are from each
-  /// other, as a part of the largest traction.
+  /// other, as a part of the largest traction; where no face is pressed, of what the common spring
+  /// would exert at the widest gap.
   double take(const std::vector<ContactGap>& gaps);
   /// Gaps that the laws are to be asked with, m, and limits of friction, Pa.
   std::vector<ContactGap> gaps() const;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Faces relaxed against a small body of springs come to rest where body and laws agree.
+#include "core/mechanics/face_relaxation.hpp"
+
+#include "core/simulation/model.hpp"
+#include "tests/plates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdca::testing {
+namespace {
+
+constexpr double body = 10.0;  ///< stiffness of a face of the body alone, Pa/m
+constexpr double stiff = 1e4;  ///< of touching faces
+constexpr double friction = 0.5;
+
+/// The patches of one crack, to be relaxed without their plate.
+ContactPatches patches_of(const ContactSpec& law) {
+  CaseSpec spec = plate({0, 0}, {1, 1}, 8, 8);
+  add_crack(spec, {{0.13, 0.21}, {0.91, 0.83}});
+  spec.cracks.back().contact = law;
+  pull(spec, {0, 1, 0});
+  const Model model(spec, world(), world_partitioner());
+  return model.contact();
+}
+
+/// A chain of faces, each pulled with its own force; neighbours hold each other.
+struct Chain {
+  Eigen::MatrixXd stiffness;
+  Eigen::VectorXd forces;
+
+  explicit Chain(std::size_t faces, double phase) {
+    const auto n = Eigen::Index(faces);
+    stiffness = 2 * body * Eigen::MatrixXd::Identity(n, n);
+    forces.resize(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      forces[k] = std::sin(1.7 * double(k) + phase);
+      if (k > 0) stiffness(k, k - 1) = stiffness(k - 1, k) = -0.95 * body;
+    }
+  }
+  /// Gaps with springs against these zeros.
+  Eigen::VectorXd gaps(const Eigen::VectorXd& springs, const Eigen::VectorXd& zeros) const {
+    const Eigen::MatrixXd held = stiffness + Eigen::MatrixXd(springs.asDiagonal());
+    return held.ldlt().solve(forces + springs.cwiseProduct(zeros));
+  }
+};
+
+struct Relaxed {
+  std::vector<ContactGap> gaps;
+  std::vector<double> limits;
+  int solves = 0;
+};
+
+Relaxed relax(const ContactPatches& patches, const Chain& across, const Chain& along) {
+  const std::size_t n = patches.patches().size();
+  FaceRelaxation faces(patches, std::vector<double>(n, 0.0), std::vector<ContactGap>(n), body);
+  Relaxed found;
+  for (double off = 1.0; off > 1e-11 && found.solves < 1000; ++found.solves) {
+    Eigen::MatrixXd springs(Eigen::Index(n), 2), zeros = springs;
+    const auto answers = faces.answers();
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto row = Eigen::Index(k);
+      springs.row(row) << answers[k].normal_spring, answers[k].tangential_spring;
+      zeros.row(row) << answers[k].normal_zero, answers[k].tangential_zero;
+    }
+    const auto normal = across.gaps(springs.col(0), zeros.col(0));
+    const auto tangential = along.gaps(springs.col(1), zeros.col(1));
+    std::vector<ContactGap> gaps;
+    for (std::size_t k = 0; k < n; ++k)
+      gaps.push_back({normal[Eigen::Index(k)], tangential[Eigen::Index(k)]});
+    off = faces.take(gaps);
+  }
+  found.gaps = faces.gaps();
+  found.limits = faces.limits();
+  return found;
+}
+
+/// Forces of the body less those of the faces, by their laws.
+double left_over(const Chain& chain, const std::vector<double>& gaps,
+                 const std::vector<double>& tractions) {
+  const auto n = Eigen::Index(gaps.size());
+  const Eigen::Map<const Eigen::VectorXd> g(gaps.data(), n), t(tractions.data(), n);
+  return (chain.stiffness * g + t - chain.forces).lpNorm<Eigen::Infinity>();
+}
+
+void expect_balance(const ContactSpec& law, int most_solves) {
+  const ContactPatches patches = patches_of(law);
+  const std::size_t n = patches.patches().size();
+  ASSERT_GT(n, 8u);
+  const Chain across(n, 0.3), along(n, 1.1);
+  const Relaxed found = relax(patches, across, along);
+  std::cout << n << " faces, " << found.solves << " solves\n";
+  EXPECT_LT(found.solves, most_solves);
+  std::vector<double> normal, tangential, pressure, shear;
+  int open = 0, sliding = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const ContactGap& gap = found.gaps[k];
+    normal.push_back(gap.normal);
+    tangential.push_back(gap.tangential);
+    pressure.push_back(std::min(0.0, law.normal_stiffness * gap.normal));
+    const double limit = -law.friction * pressure.back();
+    EXPECT_NEAR(found.limits[k], limit, 1e-9);
+    shear.push_back(std::clamp(law.tangential_stiffness * gap.tangential, -limit, limit));
+    open += gap.normal > 0.0;
+    sliding += limit > 0.0 && std::abs(shear.back()) == limit;
+  }
+  EXPECT_GT(open, 0);
+  EXPECT_LT(open, int(n)) << "some faces are to touch";
+  EXPECT_LT(left_over(across, normal, pressure), 1e-8);
+  if (law.law != ContactLaw::coulomb) return;
+  EXPECT_GT(sliding, 0);
+  EXPECT_LT(left_over(along, tangential, shear), 1e-8);
+}
+
+TEST(FaceRelaxation, FrictionlessFacesComeToRest) {
+  expect_balance({ContactLaw::frictionless, stiff, 0, 0, 0, 0, 0}, 200);
+}
+
+TEST(FaceRelaxation, FacesThatSlideKeepToTheirLimits) {
+  expect_balance({ContactLaw::coulomb, stiff, 0.1 * stiff, friction, 0, 0, 0}, 200);
+}
+
+}  // namespace
+}  // namespace cdca::testing
