@@ -2,7 +2,7 @@
 #include "core/cells/cell_unknowns.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 namespace cdca {
 
@@ -46,26 +46,23 @@ CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
 
 void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
                             const std::vector<TipZone>& zones) {
-  std::set<LocalId> candidates;
+  std::map<LocalId, std::vector<TipUnknowns>> candidates;
   for (const GlobalId id : elements.touched_elements()) {
     const GridIndex e = mesh.grid().element_index(id);
     if (mesh.find_element(e) < 0) continue;
-    for (const LocalId n : mesh.element_nodes(e)) candidates.insert(n);
+    for (const LocalId n : mesh.element_nodes(e)) candidates.try_emplace(n);
   }
-  for (const TipZone& zone : zones) {
-    for (const GlobalId id : zone.nodes) {
+  for (std::size_t z = 0; z < zones.size(); ++z) {
+    for (const GlobalId id : zones[z].nodes) {
       const LocalId n = mesh.find_node(mesh.grid().node_index(id));
-      if (n >= 0) candidates.insert(n);
+      if (n >= 0) candidates[n].push_back({int(z), 0, zones[z].with_modes.count(id) ? 2 : 8});
     }
   }
-  for (const LocalId n : candidates) {
+  for (auto& [n, tips] : candidates) {
     if (!mesh.owns(n)) continue;
     SpecialCell cell;
     cell.pieces = pieces_of(elements, mesh.node(n));
-    for (std::size_t z = 0; z < zones.size(); ++z) {
-      if (!zones[z].nodes.count(mesh.node_id(n))) continue;
-      cell.tips.push_back({int(z), 0, zones[z].with_modes.count(mesh.node_id(n)) ? 2 : 8});
-    }
+    cell.tips = std::move(tips);
     if (cell.pieces.count > 1 || !cell.tips.empty()) special_.emplace(n, std::move(cell));
   }
 }

@@ -11,21 +11,23 @@ namespace cdca {
 
 namespace {
 
-std::uint64_t signature_of(const Eigen::SparseMatrix<double>& m) {
+std::uint64_t signature_of(std::size_t size, const WindowFactors::Entries& entries) {
   Signature s;
-  s.add_bits(std::uint64_t(m.rows()));
-  for (Eigen::Index c = 0; c <= m.cols(); ++c) s.add_bits(std::uint64_t(m.outerIndexPtr()[c]));
-  for (Eigen::Index k = 0; k < m.nonZeros(); ++k) {
-    s.add_bits(std::uint64_t(m.innerIndexPtr()[k]));
-    s.add(m.valuePtr()[k]);
+  s.add_bits(size);
+  for (const auto& e : entries) {
+    s.add_bits((std::uint64_t(e.row()) << 32) | std::uint64_t(e.col()));
+    s.add(e.value());
   }
   return s.value();
 }
 
 }  // namespace
 
-const WindowFactor& WindowFactors::of(const Eigen::SparseMatrix<double>& matrix) {
-  return factors_.of(signature_of(matrix), [&] {
+const WindowFactor& WindowFactors::of(std::size_t size, const Entries& entries) {
+  return factors_.of(signature_of(size, entries), [&] {
+    const auto unknowns = Eigen::Index(size);
+    Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
     auto made = std::make_unique<WindowFactor>(matrix);
     if (made->info() != Eigen::Success) {
       throw SolveError("the stiffness of cells near a crack could not be factored");
@@ -222,7 +224,7 @@ class Windows::Builder {
       name(c, int(solved.size));
       solved.size += c.keys.size();
     }
-    std::vector<Eigen::Triplet<double>> triplets;
+    WindowFactors::Entries entries;
     int first = 0;
     const auto add = [&](const Contribution& c) {
       for (const Entry& e : c.entries) {
@@ -232,15 +234,14 @@ class Windows::Builder {
           if (found == slot.end()) continue;  // held there
           column = found->second;
         }
-        triplets.emplace_back(first + e.row, column, e.value);
+        entries.emplace_back(first + e.row, column, e.value);
       }
       first += int(c.keys.size());
     };
+    entries.reserve(draft.own.entries.size());
     add(draft.own);
     for (const auto& [from, c] : draft.remote) add(c);
-    Eigen::SparseMatrix<double> matrix(Eigen::Index(solved.size), Eigen::Index(solved.size));
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    if (solved.size > 0) solved.factor = &factors_.of(matrix);
+    if (solved.size > 0) solved.factor = &factors_.of(solved.size, entries);
     solved_place_[w] = {std::size_t(plans_.windows[w].colour),
                         windows_.colours_[std::size_t(plans_.windows[w].colour)].solved.size()};
     windows_.colours_[std::size_t(plans_.windows[w].colour)].solved.push_back(std::move(solved));

@@ -20,7 +20,9 @@ using WindowFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 class WindowFactors {
  public:
   void begin_cycle() { factors_.begin_cycle(); }
-  const WindowFactor& of(const Eigen::SparseMatrix<double>& matrix);
+  /// Entries of the stiffness of a window of so many unknowns.
+  using Entries = std::vector<Eigen::Triplet<double>>;
+  const WindowFactor& of(std::size_t size, const Entries& entries);
   std::int64_t made() const { return factors_.made(); }
   std::int64_t reused() const { return factors_.reused(); }
 
