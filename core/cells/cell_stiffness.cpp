@@ -156,9 +156,9 @@ void CellStiffness::add_springs(const std::vector<double>& springs) {
 }
 
 void CellStiffness::add_spring_forces(std::span<const double> displacements,
-                                      std::span<double> forces) const {
+                                      std::span<double> forces, double share) const {
   for (const auto& [u, spring] : springs_)
-    forces[std::size_t(u)] += spring * displacements[std::size_t(u)];
+    forces[std::size_t(u)] += share * spring * displacements[std::size_t(u)];
 }
 
 void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,

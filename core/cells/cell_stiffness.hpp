@@ -44,8 +44,10 @@ class CellStiffness final : public CellSystem {
   void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
   void clear_held(std::span<double> values) const override;
 
-  /// Adds what the weak springs would pull with if they stood at zero, on own cells, N/m.
-  void add_spring_forces(std::span<const double> displacements, std::span<double> forces) const;
+  /// Adds what the weak springs, `share` times as stiff, would pull with if they stood at zero, on
+  /// own cells, N/m.
+  void add_spring_forces(std::span<const double> displacements, std::span<double> forces,
+                         double share = 1.0) const;
 
   const RegularRuns& regular() const { return regular_; }
   /// Of all cells that do not use the common stencil; columns of ghosts included.

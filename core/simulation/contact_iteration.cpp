@@ -31,7 +31,7 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
 /// have gone far enough yet.
 double held_back(const Model& model, const LineSearch& search, double scale) {
   if (!model.has_weak_springs() || scale == 0.0) return 0.0;
-  const CellStiffness& cells = model.stiffness();
+  const TurnedCells& cells = model.cells();
   std::vector<double> weak(std::size_t(cells.count()), 0.0);
   cells.add_spring_forces(search.move(), weak);
   return std::sqrt(cells.dot(weak, weak)) / scale;
@@ -54,7 +54,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   set_held(model, given.held, model.state());
   // new faces answer to where they are, so that the first move goes towards balance
   const auto here = solves.gaps();
-  if (contact.respond(here, contact.limits_at(here)).springs) model.build_stiffness(firmest);
+  if (contact.respond(here, contact.limits_at(here)).springs) solves.turn_springs(firmest);
   double weak = firmest, unbalanced = 1.0;
   bool settled = false;
   int cut_short = 0;
@@ -76,7 +76,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     const auto change = contact.respond(gaps, limits);
     // bodies that only others hold are let go little by little
     const double before = std::exchange(weak, whole ? std::max(weakest, 0.3 * weak) : weak);
-    if (change.springs || (weak != before && model.has_weak_springs())) model.build_stiffness(weak);
+    if (change.springs || (weak != before && model.has_weak_springs())) solves.turn_springs(weak);
     unbalanced = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
     result.contact_unbalanced = unbalanced;
     result.linear_solves = solves.count();

@@ -24,10 +24,28 @@ void ContactSolves::once(const Accuracy& accuracy) {
   set_forces_of_faces();
   const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
   ++count_;
+  if (quickest_ == 0 || report.iterations < quickest_) quickest_ = report.iterations;
+  lost_ += report.iterations - quickest_;
   slowest_.converged = report.converged;
   slowest_.iterations = std::max(slowest_.iterations, report.iterations);
   slowest_.residual = report.residual;
   slowest_.scale = report.scale;
+}
+
+void ContactSolves::build_stiffness(double weak) {
+  model_.build_stiffness(weak);
+  quickest_ = lost_ = 0;
+}
+
+void ContactSolves::turn_springs(double weak) {
+  constexpr int worth_a_build = 30;  // iterations that take as long
+  constexpr std::size_t few = 6;     // patches; each may cost some iterations in every solve
+  const bool one_factor = model_.hierarchy().count() == 1;
+  if (one_factor && lost_ < worth_a_build && model_.turned_patches() <= few) {
+    model_.turn_springs(weak);
+  } else {
+    build_stiffness(weak);
+  }
 }
 
 void ContactSolves::turn_limits(double agreed, double part) {
@@ -47,21 +65,25 @@ void ContactSolves::turn_limits(double agreed, double part) {
 
 double ContactSolves::relax_faces(double enough, double weak) {
   constexpr int most = 1000;
+  constexpr int patience = 30;  // a relaxation that gets on falls to half in far fewer solves
   ContactPatches& contact = model_.contact();
   // about that of a block of a few elements: neither faces nor body count alone
   const double stiffness = 0.3 * model_.spec().material.young / model_.grid().smallest_side();
   FaceRelaxation faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
                        gaps(), stiffness);
-  double off = 1.0;
-  for (int k = 0; k < most && off > enough; ++k) {
+  double off = 1.0, halved = 1.0;
+  int since = 0;  // solves in which it has not fallen to half
+  for (int k = 0; k < most && off > enough && since < patience; ++k) {
     const auto answers = faces.answers();
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
-    if (k == 0) model_.build_stiffness(weak);
+    if (k == 0) build_stiffness(weak);
     once({1.0, of_change});
     off = faces.take(gaps());
+    ++since;
+    if (off <= 0.5 * halved) halved = off, since = 0;
   }
   contact.respond(faces.gaps(), faces.limits());
-  model_.build_stiffness(weak);
+  build_stiffness(weak);
   set_forces_of_faces();
   return off;
 }

@@ -23,6 +23,11 @@ class ContactSolves {
   /// are.
   double relax_faces(double enough, double weak);
 
+  /// Brings the stiffness up to date. Where one factor moves all cells, what has changed since it
+  /// was built lies on top of it for as long as the solves are not much slower for that. weak: as
+  /// in relax_faces().
+  void turn_springs(double weak);
+
   std::vector<ContactGap> gaps() const;
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
@@ -30,6 +35,7 @@ class ContactSolves {
 
  private:
   void set_forces_of_faces();
+  void build_stiffness(double weak);
 
   Model& model_;
   const EquilibriumSolver& solver_;
@@ -37,6 +43,8 @@ class ContactSolves {
   Forces& given_;
   SolverReport slowest_;
   int count_ = 0;
+  int quickest_ = 0;  ///< iterations of a solve since the stiffness was built; 0: none yet
+  int lost_ = 0;      ///< iterations since then, less so many a solve
 };
 
 }  // namespace cdca

@@ -42,7 +42,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
                       ? solve_once(model, solver, load_factor, given)
                       : settle_contact(model, solver, load_factor, given, result);
 
-  const CellStiffness& cells = model.stiffness();
+  const TurnedCells& cells = model.cells();
   std::vector<double> product(all, 0.0);
   cells.apply(model.state(), product);
   std::vector<double> weak(all, 0.0);

@@ -20,20 +20,25 @@ void require_convergence(const SolverReport& report, const SolverSpec& spec, dou
   throw SolveError(text.str());
 }
 
-double norm(const CellStiffness& cells, const std::vector<double>& forces) {
+double norm(const CellSystem& cells, const std::vector<double>& forces) {
   return std::sqrt(cells.dot(forces, forces));
 }
 
 }  // namespace
 
 SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
-                        const Forces& given, const Accuracy& accuracy) {
-  const CellStiffness& cells = model.stiffness();
+                        Forces& given, const Accuracy& accuracy) {
+  const TurnedCells& cells = model.cells();
   const SolverSpec& spec = model.spec().solver;
   const auto own = std::size_t(cells.owned());
-  std::vector<double> forces(std::size_t(cells.count()), 0.0), product(forces);
-  cells.apply(given.held, product);
-  for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k] - product[k];
+  std::vector<double> forces(std::size_t(cells.count()), 0.0);
+  if (given.version != model.stiffness_version()) {
+    given.pulled.assign(forces.size(), 0.0);
+    cells.apply(given.held, given.pulled);
+    given.version = model.stiffness_version();
+  }
+  for (std::size_t k = 0; k < own; ++k)
+    forces[k] = given.external[k] + given.faces[k] - given.pulled[k];
   // weak springs of loose bodies stand where the bodies are
   std::vector<double>& state = model.state();
   cells.add_spring_forces(state, forces);
@@ -42,15 +47,9 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   SolverReport report;
   report.scale = norm(cells, forces);
   if (report.scale > 0.0) {
-    double least = accuracy.part * report.scale;
-    if (accuracy.of_start > 0.0) {
-      cells.set_residual(forces, state, product);
-      least = std::max(least, accuracy.of_start * norm(cells, product) / spec.tolerance);
-    }
     const double scale = report.scale;
-    report = solver.solve(cells, forces, state, least);
+    report = solver.solve(cells, forces, state, scale, accuracy);
     require_convergence(report, spec, load_factor);
-    report.residual *= least / scale;
     report.scale = scale;
   } else {
     std::fill(state.begin(), state.end(), 0.0);

@@ -145,6 +145,7 @@ double Model::accept_contact() {
 }
 
 void Model::build_stiffness(double weak_share) {
+  ++stiffness_version_;
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
@@ -154,6 +155,25 @@ void Model::build_stiffness(double weak_share) {
       multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
       multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_);
   if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces}, *stiffness_);
+  cells_ = std::make_unique<TurnedCells>(*stiffness_, spots_);
+  built_weak_share_ = weak_share;
+  built_answers_.clear();
+  for (const ContactPatch& p : contact_.patches()) built_answers_.push_back(p.now);
+}
+
+std::size_t Model::turned_patches() const {
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < built_answers_.size(); ++p) {
+    const ContactAnswer &was = built_answers_[p], &now = contact_.patches()[p].now;
+    count +=
+        was.normal_spring != now.normal_spring || was.tangential_spring != now.tangential_spring;
+  }
+  return count;
+}
+
+void Model::turn_springs(double weak_share) {
+  ++stiffness_version_;
+  cells_->turn(spots_.turned(built_answers_, contact_), weak_share / built_weak_share_);
 }
 
 void Model::lay_cracks(CrackRegistry registry) {

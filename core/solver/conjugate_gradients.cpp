@@ -47,7 +47,7 @@ double rounding_of(const CellSystem& system, std::span<const double> u, std::vec
 
 SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner& precondition,
                                  std::span<const double> forces, std::span<double> u, double scale,
-                                 const SolverOptions& options) {
+                                 const SolverOptions& options, const Accuracy& accuracy) {
   using Vector = std::vector<double>;
   const auto all = std::size_t(system.count());
   const auto own = Eigen::Index(system.owned());
@@ -63,11 +63,12 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
   constexpr double coarsest_rounding = 1e-6;  // no answer is good with larger residuals
   const int limit = options.max_iterations > 0 ? options.max_iterations : 200000;
   set_residual();
-  report.converged = report.residual <= options.tolerance;
+  const double enough = accuracy.enough(options.tolerance, report.residual);
+  report.converged = report.residual <= enough;
   // rounding makes the recurrence drift from the true residual: start again from the latter
   for (int restart = 0; restart < 5 && !report.converged; ++restart) {
     double energy = 0.0;
-    while (report.residual > options.tolerance && report.iterations < limit) {
+    while (report.residual > enough && report.iterations < limit) {
       precondition(residual, product, move);
       const double next = system.dot(residual, move);
       if (energy > 0.0) {
@@ -85,8 +86,10 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
                                  own_product, own_u, own_residual);
       report.residual = std::sqrt(system.communicator().sum(sum)) / scale;
     }
+    report.converged = report.residual <= enough;
+    if (report.converged && accuracy.of_start > 0.0) break;
     set_residual();
-    report.converged = report.residual <= options.tolerance;
+    report.converged = report.residual <= enough;
     if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
     // a force is a sum of some tens of products, each of them rounded too
     const double least = 8 * rounding_of(system, u, direction, product) / scale;

@@ -16,6 +16,6 @@ using Preconditioner = std::function<void(const std::vector<double>& force,
 
 SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner& precondition,
                                  std::span<const double> forces, std::span<double> u, double scale,
-                                 const SolverOptions& options);
+                                 const SolverOptions& options, const Accuracy& accuracy = {});
 
 }  // namespace cdca

@@ -4,6 +4,7 @@
 
 #include "core/base/cell_system.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 
@@ -15,8 +16,20 @@ struct SolverOptions {
   int max_iterations = 0;        ///< 0: chosen from the number of unknowns
 };
 
+/// When one solve is exact enough.
+struct Accuracy {
+  double part = 1.0;  ///< of SolverOptions::tolerance
+  /// Or where the residual has fallen to this part of what it was at first. A result that need not
+  /// be more exact is not checked once more.
+  double of_start = 0.0;
+  /// The residual, relative to `scale`, at which a solve ends that starts with `first`.
+  double enough(double tolerance, double first) const {
+    return std::max(part * tolerance, of_start * first);
+  }
+};
+
 struct SolverReport {
-  /// The residual is within the tolerance, or as small as rounding of u lets it be.
+  /// The residual is within what was asked for, or as small as rounding of u lets it be.
   bool converged = false;
   int iterations = 0;     ///< sweeps of the rule, or steps of CG
   double residual = 0.0;  ///< relative to `scale`
@@ -30,7 +43,8 @@ class EquilibriumSolver {
   /// u: start value in, result out (own cells). scale: the force that residuals are compared with,
   /// N/m.
   virtual SolverReport solve(const CellSystem& system, std::span<const double> forces,
-                             std::span<double> u, double scale) const = 0;
+                             std::span<double> u, double scale,
+                             const Accuracy& accuracy = {}) const = 0;
 };
 
 /// The rule alone (2.4.3, 1-4): sweeps until nothing moves.

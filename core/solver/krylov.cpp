@@ -12,7 +12,7 @@ class Krylov final : public EquilibriumSolver {
   explicit Krylov(const SolverOptions& options) : options_(options) {}
 
   SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
-                     double scale) const override {
+                     double scale, const Accuracy& accuracy) const override {
     // one sweep forward and one backward over own cells, those of other ranks held
     const auto precondition = [&system](const std::vector<double>& force,
                                         std::vector<double>& scratch, std::vector<double>& move) {
@@ -21,7 +21,7 @@ class Krylov final : public EquilibriumSolver {
       system.sweep(SweepDirection::forward, 1.0, scratch, move);
       system.sweep(SweepDirection::backward, 1.0, scratch, move);
     };
-    return conjugate_gradients(system, precondition, forces, u, scale, options_);
+    return conjugate_gradients(system, precondition, forces, u, scale, options_, accuracy);
   }
 
  private:

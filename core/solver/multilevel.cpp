@@ -50,13 +50,13 @@ class Multilevel final : public EquilibriumSolver {
       : options_(options), scales_(scales) {}
 
   SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
-                     double scale) const override {
+                     double scale, const Accuracy& accuracy) const override {
     VCycle cycle(scales_);
     return conjugate_gradients(
         system,
         [&cycle](const std::vector<double>& force, std::vector<double>& scratch,
                  std::vector<double>& move) { cycle(force, scratch, move); },
-        forces, u, scale, options_);
+        forces, u, scale, options_, accuracy);
   }
 
  private:

@@ -14,14 +14,16 @@ class Relaxation final : public EquilibriumSolver {
   explicit Relaxation(const SolverOptions& options) : options_(options) {}
 
   SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
-                     double scale) const override {
+                     double scale, const Accuracy& accuracy) const override {
     std::vector<double> residual(std::size_t(system.count()), 0.0);
     system.set_residual(forces, u, residual);
     SolverReport report;
+    double enough = 0.0;
     const int limit = options_.max_iterations > 0 ? options_.max_iterations : 1000000;
     for (;; ++report.iterations) {
       report.residual = std::sqrt(system.dot(residual, residual)) / scale;
-      report.converged = report.residual <= options_.tolerance;
+      if (report.iterations == 0) enough = accuracy.enough(options_.tolerance, report.residual);
+      report.converged = report.residual <= enough;
       if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
       system.sweep_all(options_.over_relaxation, residual, u);
       system.clear_held(residual);
