@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -113,34 +114,56 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
 }
 
 void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {
-  constexpr double idle = 1e-12;
+  constexpr std::size_t one_element = 4;
+  struct Zone {
+    std::size_t cells = 0;
+    std::vector<LocalId> own;
+  };
+  std::map<int, Zone> zones;
   for (const LocalId n : unknowns.special_nodes()) {
-    if (!mesh.owns(n) || unknowns.tips(n).empty()) continue;
     std::vector<LocalId> block;
     for (const TipUnknowns& tip : unknowns.tips(n)) {
+      Zone& zone = zones[tip.zone];
+      ++zone.cells;
+      if (!mesh.owns(n)) continue;
       for (LocalId k = 0; k < tip.count; ++k) block.push_back(tip.first + k);
+      if (zone.cells <= one_element)
+        zone.own.insert(zone.own.end(), block.end() - tip.count, block.end());
     }
-    const auto size = Eigen::Index(block.size());
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
-    const auto for_entries = [&](auto&& visit) {
-      for (Eigen::Index a = 0; a < size; ++a) {
-        const auto row = std::size_t(rows_.find(block[std::size_t(a)]));
-        for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k) {
-          const auto b = std::find(block.begin(), block.end(), rows_.column[k]) - block.begin();
-          if (b < size) visit(a, b, rows_.value[k]);
-        }
-      }
-    };
-    for_entries([&](Eigen::Index a, Eigen::Index b, double value) { own(a, b) = value; });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(own);
-    const double largest = pairs.eigenvalues()[size - 1];
-    Eigen::MatrixXd hold = Eigen::MatrixXd::Zero(size, size);
-    for (Eigen::Index k = 0; k < size && pairs.eigenvalues()[k] < idle * largest; ++k) {
-      hold += largest * pairs.eigenvectors().col(k) * pairs.eigenvectors().col(k).transpose();
-    }
-    if (hold.isZero(0.0)) continue;
-    for_entries([&](Eigen::Index a, Eigen::Index b, double& value) { value += hold(a, b); });
+    if (!block.empty()) hold_idle_functions(block);
   }
+  for (const auto& [number, zone] : zones) {
+    if (zone.cells <= one_element && !zone.own.empty()) hold_idle_functions(zone.own);
+  }
+}
+
+void CellStiffness::hold_idle_functions(const std::vector<LocalId>& block) {
+  constexpr double idle = 1e-12, well_apart = 1e-9;
+  const auto size = Eigen::Index(block.size());
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
+  const auto for_entries = [&](auto&& visit) {
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const auto row = std::size_t(rows_.find(block[std::size_t(a)]));
+      for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k) {
+        const auto b = std::find(block.begin(), block.end(), rows_.column[k]) - block.begin();
+        if (b < size) visit(a, b, rows_.value[k]);
+      }
+    }
+  };
+  for_entries([&](Eigen::Index a, Eigen::Index b, double value) { own(a, b) = value; });
+  // most blocks are far from that, which their factor tells at less cost
+  const Eigen::LLT<Eigen::MatrixXd> factor(own);
+  const auto pivots = factor.matrixLLT().diagonal().array().square();
+  if (factor.info() == Eigen::Success && (pivots > well_apart * own.diagonal().maxCoeff()).all())
+    return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(own);
+  const double largest = pairs.eigenvalues()[size - 1];
+  Eigen::MatrixXd hold = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index k = 0; k < size && pairs.eigenvalues()[k] < idle * largest; ++k) {
+    hold += largest * pairs.eigenvectors().col(k) * pairs.eigenvectors().col(k).transpose();
+  }
+  if (hold.isZero(0.0)) return;
+  for_entries([&](Eigen::Index a, Eigen::Index b, double& value) { value += hold(a, b); });
 }
 
 void CellStiffness::add_springs(const std::vector<double>& springs) {

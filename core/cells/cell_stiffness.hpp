@@ -69,9 +69,10 @@ class CellStiffness final : public CellSystem {
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<char>& regular);
-  /// Combinations of a cell's near-tip functions that strain nothing, as where these act on a small
-  /// corner of its support only, are held at 0.
+  /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
+  /// only, are held at 0: of one cell, and of all cells of a zone of one element.
   void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);
+  void hold_idle_functions(const std::vector<LocalId>& block);
   void add_springs(const std::vector<double>& springs);
   void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
                     const std::vector<char>& held, const std::vector<char>& regular);

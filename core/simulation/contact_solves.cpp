@@ -65,22 +65,18 @@ void ContactSolves::turn_limits(double agreed, double part) {
 
 double ContactSolves::relax_faces(double enough, double weak) {
   constexpr int most = 1000;
-  constexpr int patience = 30;  // a relaxation that gets on falls to half in far fewer solves
   ContactPatches& contact = model_.contact();
   // about that of a block of a few elements: neither faces nor body count alone
   const double stiffness = 0.3 * model_.spec().material.young / model_.grid().smallest_side();
   FaceRelaxation faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
                        gaps(), stiffness);
-  double off = 1.0, halved = 1.0;
-  int since = 0;  // solves in which it has not fallen to half
-  for (int k = 0; k < most && off > enough && since < patience; ++k) {
+  double off = 1.0;
+  for (int k = 0; k < most && off > enough; ++k) {
     const auto answers = faces.answers();
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
     if (k == 0) build_stiffness(weak);
     once({1.0, of_change});
     off = faces.take(gaps());
-    ++since;
-    if (off <= 0.5 * halved) halved = off, since = 0;
   }
   contact.respond(faces.gaps(), faces.limits());
   build_stiffness(weak);

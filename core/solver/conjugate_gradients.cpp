@@ -60,7 +60,7 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     system.set_residual(forces, u, residual);
     report.residual = std::sqrt(system.dot(residual, residual)) / scale;
   };
-  constexpr double coarsest_rounding = 1e-6;  // no answer is good with larger residuals
+  constexpr double coarsest_rounding = 1e-6;  // where all of the tolerance is asked for
   const int limit = options.max_iterations > 0 ? options.max_iterations : 200000;
   set_residual();
   const double enough = accuracy.enough(options.tolerance, report.residual);
@@ -93,7 +93,8 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
     // a force is a sum of some tens of products, each of them rounded too
     const double least = 8 * rounding_of(system, u, direction, product) / scale;
-    report.converged = report.residual <= std::min(least, coarsest_rounding);
+    report.converged =
+        report.residual <= std::min(least, coarsest_rounding * enough / options.tolerance);
   }
   return report;
 }
