@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace cdca::testing {
@@ -106,6 +107,38 @@ TEST(ContactParallel, SameStatesTractionsAndIntensities) {
       EXPECT_NEAR(one.tips[t].k2, many.tips[t].k2, 1e-6);
     }
   }
+}
+
+/// What turned springs add to the stiffness is what a new one would have, rank borders or not.
+TEST(TurnedCellsParallel, ActAsIfBuiltAnew) {
+  Model model(sheared(), world(), scattered());
+  model.build_stiffness();
+  const auto all = std::size_t(model.cells().count());
+  std::vector<double> x(all), before(all, 0.0), turned(all, 0.0), rest(all, 0.0), anew(all, 0.0);
+  for (std::size_t k = 0; k < all; ++k) x[k] = std::sin(double(7 * k % 1000));
+  model.cells().apply(x, before);
+  EXPECT_EQ(model.turned_patches(), 0U);
+  for (std::size_t p = 0; p < model.contact().patches().size(); p += 3)
+    model.contact().patches()[p].now = {};  // open
+  model.turn_springs(1e-3);
+  EXPECT_GT(model.turned_patches(), 10U);
+  model.cells().apply(x, turned);
+  model.cells().set_residual(before, x, rest);
+  model.build_stiffness();
+  model.cells().apply(x, anew);
+  double change = 0.0, off = 0.0, off_rest = 0.0;
+  for (std::size_t k = 0; k < std::size_t(model.cells().owned()); ++k) {
+    change = std::max(change, std::abs(anew[k] - before[k]));
+    off = std::max(off, std::abs(anew[k] - turned[k]));
+  }
+  model.cells().clear_held(before);
+  model.cells().clear_held(anew);
+  for (std::size_t k = 0; k < std::size_t(model.cells().owned()); ++k)
+    off_rest = std::max(off_rest, std::abs(before[k] - anew[k] - rest[k]));
+  const double largest = world().max(change);
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(off, 1e-9 * largest);
+  EXPECT_LT(off_rest, 1e-9 * largest);
 }
 
 /// Two flaws under compression and their wings.
