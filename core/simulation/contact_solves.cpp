@@ -27,6 +27,7 @@ void ContactSolves::once(const Accuracy& accuracy) {
   if (quickest_ == 0 || report.iterations < quickest_) quickest_ = report.iterations;
   lost_ += report.iterations - quickest_;
   slowest_.converged = report.converged;
+  slowest_.rounded = report.rounded;
   slowest_.iterations = std::max(slowest_.iterations, report.iterations);
   slowest_.residual = report.residual;
   slowest_.scale = report.scale;

@@ -93,7 +93,7 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     if (report.converged || report.iterations >= limit || !std::isfinite(report.residual)) break;
     // a force is a sum of some tens of products, each of them rounded too
     const double least = 8 * rounding_of(system, u, direction, product) / scale;
-    report.converged =
+    report.converged = report.rounded =
         report.residual <= std::min(least, coarsest_rounding * enough / options.tolerance);
   }
   return report;

@@ -31,6 +31,7 @@ struct Accuracy {
 struct SolverReport {
   /// The residual is within what was asked for, or as small as rounding of u lets it be.
   bool converged = false;
+  bool rounded = false;   ///< the latter: larger than what was asked for
   int iterations = 0;     ///< sweeps of the rule, or steps of CG
   double residual = 0.0;  ///< relative to `scale`
   double scale = 0.0;     ///< N/m; set by who knows all forces
