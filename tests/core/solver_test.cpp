@@ -245,12 +245,28 @@ TEST(SolverParallel, StopsWhereRoundingDoes) {
   const auto solver = make_krylov({1e-30, 1.0, 0});
   Vector u = plate.zeros();
   const auto report = solver->solve(plate.cells(), plate.forces, u, plate.scale);
-  EXPECT_TRUE(report.converged);
+  EXPECT_TRUE(report.converged && report.rounded);
   EXPECT_GT(report.residual, 1e-30);
   EXPECT_LT(report.residual, 1e-11);
   const auto again =
       make_krylov({1e-30, 1.0, 2})->solve(plate.cells(), plate.forces, u, plate.scale);
-  EXPECT_FALSE(again.converged) << "stopped by the limit of iterations";
+  EXPECT_FALSE(again.converged || again.rounded) << "stopped by the limit of iterations";
+}
+
+TEST(SolverParallel, EndsWhereTheResidualHasFallenFarEnough) {
+  const Loaded plate(cracked_plate());
+  const auto solver = make_krylov({1e-9, 1.0, 0});
+  Vector u = plate.zeros();
+  const auto rough = solver->solve(plate.cells(), plate.forces, u, plate.scale, {1.0, 0.05});
+  EXPECT_TRUE(rough.converged);
+  EXPECT_LE(rough.residual, 0.05);
+  EXPECT_GT(rough.residual, 1e-3);
+  Vector residual(u.size(), 0.0);
+  plate.cells().set_residual(plate.forces, u, residual);
+  EXPECT_NEAR(std::sqrt(plate.cells().dot(residual, residual)) / plate.scale, rough.residual, 1e-9)
+      << "the residual is the true one";
+  const auto exact = solver->solve(plate.cells(), plate.forces, u, plate.scale, {0.1, 0.0});
+  EXPECT_LE(exact.residual, 1e-10);
 }
 
 TEST(SolverParallel, StartsFromWhereItIs) {
