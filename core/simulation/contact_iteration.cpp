@@ -27,9 +27,14 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
   model.stiffness().halo().copy_state(state);
 }
 
-/// How exact a solve was: within what was asked for, or within what rounding allows.
-bool is_exact(const SolverReport& solve, double wanted) {
-  return solve.rounded || solve.residual <= wanted;
+/// How well tractions can be balanced after a solve, as a part of the largest: `enough` where it
+/// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that;
+/// nothing where it was not exact.
+double balance_after(const SolverReport& solve, double wanted, double enough) {
+  constexpr double worst = 1e-5;
+  if (solve.residual <= wanted) return enough;
+  const double allowed = enough * solve.residual / wanted;
+  return solve.rounded && allowed <= worst ? allowed : 0.0;
 }
 
 /// Of forces that weak springs have added in a solve, as a part of all forces: bodies may not
@@ -87,19 +92,16 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     unbalanced = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
     result.contact_unbalanced = unbalanced;
     result.linear_solves = solves.count();
-    const SolverReport& last = solves.slowest();
-    // where rounding keeps solves from being as exact, as when loose bodies have gone far,
-    // tractions cannot be balanced better than they are
-    const double balanced = last.rounded ? std::max(enough, 10 / part * last.residual) : enough;
-    if (share == 1.0 && is_exact(last, part * tolerance) && unbalanced <= balanced &&
-        pulled <= enough)
-      return last;
+    // rounding keeps solves from being exact when loose bodies have gone far
+    const double balanced = balance_after(solves.slowest(), part * tolerance, enough);
+    if (share == 1.0 && unbalanced <= balanced && pulled <= enough) return solves.slowest();
     if (share < short_move && ++cut_short == short_moves) {
       // relaxing further has cost more solves than the turns that it spared
       const double off = solves.relax_faces(std::max(enough, 1e-8), weak = weakest);
       result.contact_unbalanced = off;
       result.linear_solves = solves.count();
-      if (off <= enough && is_exact(solves.slowest(), part * tolerance)) return solves.slowest();
+      if (off <= enough && balance_after(solves.slowest(), part * tolerance, enough) > 0.0)
+        return solves.slowest();
       unbalanced = nearly;
       cut_short = 0;
     }
