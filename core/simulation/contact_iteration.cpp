@@ -2,6 +2,7 @@
 #include "core/simulation/contact_iteration.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/mechanics/face_barrier.hpp"
 #include "core/simulation/contact_solves.hpp"
 #include "core/simulation/line_search.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 
 /// Limits of friction follow the pressures in so many iterations, then only where states settle.
 constexpr int follow_at_once = 20;
-/// Moves shorter than this turn faces one by one; after a few of them all faces are relaxed.
+/// Moves shorter than this turn faces one by one; after a few of them all faces are brought into
+/// balance at once.
 constexpr double short_move = 0.1;
 constexpr int short_moves = 4;
 
@@ -35,16 +37,6 @@ double balance_after(const SolverReport& solve, double wanted, double enough) {
   if (solve.residual <= wanted) return enough;
   const double allowed = enough * solve.residual / wanted;
   return solve.rounded && allowed <= worst ? allowed : 0.0;
-}
-
-/// Of forces that weak springs have added in a solve, as a part of all forces: bodies may not
-/// have gone far enough yet.
-double held_back(const Model& model, const LineSearch& search, double scale) {
-  if (!model.has_weak_springs() || scale == 0.0) return 0.0;
-  const TurnedCells& cells = model.cells();
-  std::vector<double> weak(std::size_t(cells.count()), 0.0);
-  cells.add_spring_forces(search.move(), weak);
-  return std::sqrt(cells.dot(weak, weak)) / scale;
 }
 
 }  // namespace
@@ -78,7 +70,7 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     solves.once({part, following && !near ? 1e-3 : 0.0});
     if (following || settled) solves.turn_limits(std::max(agreed, 0.1 * enough), part);
     const LineSearch search(model, given.external, from);
-    const double pulled = held_back(model, search, solves.slowest().scale);
+    const double pulled = solves.held_back(search.move());
     const double share = search.find(pulled > enough ? farthest : 1.0);
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
@@ -95,13 +87,19 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
     // rounding keeps solves from being exact when loose bodies have gone far
     const double balanced = balance_after(solves.slowest(), part * tolerance, enough);
     if (share == 1.0 && unbalanced <= balanced && pulled <= enough) return solves.slowest();
-    if (share < short_move && ++cut_short == short_moves) {
-      // relaxing further has cost more solves than the turns that it spared
-      const double off = solves.relax_faces(std::max(enough, 1e-8), weak = weakest);
-      result.contact_unbalanced = off;
+    cut_short += share < short_move;
+    const bool jammed = cut_short == short_moves || k == follow_at_once;
+    if (jammed && FaceBarrier::suits(contact)) {
+      const Model::ContactMemory memory = model.contact_memory();
+      const std::vector<double> state = model.state();
+      const auto balance = solves.balance_faces(enough);
+      k += balance.steps;
+      result.contact_unbalanced = balance.unbalanced;
       result.linear_solves = solves.count();
-      if (off <= enough && balance_after(solves.slowest(), part * tolerance, enough) > 0.0)
-        return solves.slowest();
+      if (balance.found) return solves.slowest();
+      model.remember(memory);
+      model.state() = state;
+      solves.build_stiffness(weak);
       unbalanced = nearly;
       cut_short = 0;
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/contact_solves.hpp"
 
-#include "core/mechanics/face_relaxation.hpp"
+#include "core/mechanics/face_barrier.hpp"
 #include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cdca {
 
@@ -64,25 +65,51 @@ void ContactSolves::turn_limits(double agreed, double part) {
   }
 }
 
-double ContactSolves::relax_faces(double enough, double weak) {
-  constexpr int most = 1000;
+ContactSolves::Balance ContactSolves::balance_faces(double enough) {
+  constexpr int most = 100;
+  constexpr double loosest = 1e-9;  // weak springs: the other faces hold loose bodies meanwhile
+  constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
   ContactPatches& contact = model_.contact();
-  // about that of a block of a few elements: neither faces nor body count alone
-  const double stiffness = 0.3 * model_.spec().material.young / model_.grid().smallest_side();
-  FaceRelaxation faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
-                       gaps(), stiffness);
-  double off = 1.0;
-  for (int k = 0; k < most && off > enough; ++k) {
-    const auto answers = faces.answers();
+  std::vector<double>& state = model_.state();
+  FaceBarrier faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
+                    gaps(), model_.grid().smallest_side() / model_.spec().material.young);
+  bool built = false;
+  const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
-    if (k == 0) build_stiffness(weak);
-    once({1.0, of_change});
-    off = faces.take(gaps());
+    if (!built) build_stiffness(loosest);
+    built = true;
+    once({});
+    return gaps();
+  };
+  Balance balance;
+  while (!balance.found && balance.steps < most) {
+    ++balance.steps;
+    built = false;
+    given_.anchor = state;
+    const double agree = of_unbalanced * balance.unbalanced;
+    const double share = faces.step(solve, std::clamp(agree, of_unbalanced * enough, agreeing));
+    std::vector<double> move = state;
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      move[k] = share * (state[k] - given_.anchor[k]);
+      state[k] = given_.anchor[k] + move[k];
+    }
+    balance.unbalanced = faces.unbalanced(gaps());
+    balance.found = balance.unbalanced <= enough && held_back(move) <= enough;
   }
-  contact.respond(faces.gaps(), faces.limits());
-  build_stiffness(weak);
+  given_.anchor.clear();
+  const auto here = gaps();
+  contact.respond(here, contact.limits_at(here));
+  build_stiffness(loosest);
   set_forces_of_faces();
-  return off;
+  return balance;
+}
+
+double ContactSolves::held_back(const std::vector<double>& move) const {
+  if (!model_.has_weak_springs() || slowest_.scale == 0.0) return 0.0;
+  const TurnedCells& cells = model_.cells();
+  std::vector<double> weak(std::size_t(cells.count()), 0.0);
+  cells.add_spring_forces(move, weak);
+  return std::sqrt(cells.dot(weak, weak)) / slowest_.scale;
 }
 
 std::vector<ContactGap> ContactSolves::gaps() const {

@@ -17,25 +17,32 @@ class ContactSolves {
   /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
   /// agree to this part of the largest traction. part: of the solver's tolerance.
   void turn_limits(double agreed, double part);
-  /// Turns many faces at once (face_relaxation.hpp), until their tractions are balanced to this
-  /// part of the largest or for as long as it is worth while, and leaves springs, states and limits
-  /// near those of balance. weak: of the springs of loose bodies. Returns how far from balance they
-  /// are.
-  double relax_faces(double enough, double weak);
+  struct Balance {
+    bool found = false;
+    double unbalanced = 1.0;  ///< tractions, as a part of the largest
+    int steps = 0;            ///< each with a stiffness of its own
+  };
+  /// Brings all faces into balance at once (face_barrier.hpp), to this part of the largest
+  /// traction, and leaves springs, states and limits of that balance.
+  Balance balance_faces(double enough);
 
   /// Brings the stiffness up to date. Where one factor moves all cells, what has changed since it
-  /// was built lies on top of it for as long as the solves are not much slower for that. weak: as
-  /// in relax_faces().
+  /// was built lies on top of it for as long as the solves are not much slower for that. weak: of
+  /// the springs of loose bodies.
   void turn_springs(double weak);
+  /// Makes the stiffness anew.
+  void build_stiffness(double weak);
 
   std::vector<ContactGap> gaps() const;
+  /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
+  /// have gone far enough yet.
+  double held_back(const std::vector<double>& move) const;
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }
 
  private:
   void set_forces_of_faces();
-  void build_stiffness(double weak);
 
   Model& model_;
   const EquilibriumSolver& solver_;

@@ -39,9 +39,9 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   }
   for (std::size_t k = 0; k < own; ++k)
     forces[k] = given.external[k] + given.faces[k] - given.pulled[k];
-  // weak springs of loose bodies stand where the bodies are
+  // weak springs of loose bodies stand where the bodies are, or where they are to be held
   std::vector<double>& state = model.state();
-  cells.add_spring_forces(state, forces);
+  cells.add_spring_forces(given.anchor.empty() ? state : given.anchor, forces);
   cells.clear_held(forces);
   cells.clear_held(state);
   SolverReport report;

@@ -15,7 +15,9 @@ struct Forces {
   std::vector<double> faces;        ///< of given tractions between touching faces, likewise
   std::vector<double> held;         ///< prescribed displacements, m
   std::vector<double> pulled = {};  ///< what they exert, set in the solve
-  std::int64_t version = -1;        ///< of the stiffness that they exert it with
+  std::vector<double> anchor =
+      {};  ///< state in which weak springs pull with nothing; the model's, if empty
+  std::int64_t version = -1;  ///< of the stiffness that they exert it with
 };
 
 /// Moves the model's state to where these forces are in balance, ghosts included. The report's
