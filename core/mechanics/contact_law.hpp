@@ -39,7 +39,7 @@ struct ContactAnswer {
   double normal_spring = 0.0;
   double tangential_spring = 0.0;
   /// Gaps (m, with the body's share) where these springs exert nothing; other than 0 in a
-  /// relaxation of the faces only.
+  /// steps of FaceBarrier only.
   double normal_zero = 0.0;
   double tangential_zero = 0.0;
   double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
