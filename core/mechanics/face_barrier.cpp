@@ -17,6 +17,11 @@ constexpr double nearly_all = 0.99;
 /// A step that goes less far is hardly one; after so many of them there is a new start.
 constexpr double hardly = 0.1;
 constexpr int most_stuck = 2;
+/// Least pressures at the start, as a part of the largest.
+constexpr double at_start = 0.1;
+/// Share of friction that counts first after a new start, and what comes to it in a step that goes
+/// far.
+constexpr double least_friction = 0.1, more_friction = 0.05, far_enough = 0.5;
 
 }  // namespace
 
@@ -59,10 +64,11 @@ double FaceBarrier::Face::zero_along(double barrier) const {
   return forwards.opening_at(barrier, limit) - backwards.opening_at(barrier, limit);
 }
 
-double FaceBarrier::Face::limit_of(double pressure) const {
+double FaceBarrier::Face::limit_of(double pressure, double friction_share) const {
   // open faces have no cohesion
   const double pressed = across.compliance * touch.second;
-  return spec.friction * pressure + spec.cohesion * pressed / (pressed + touch.first);
+  const double cohesion = spec.cohesion * pressed / (pressed + touch.first);
+  return friction_share * (spec.friction * pressure + cohesion);
 }
 
 bool FaceBarrier::suits(const ContactPatches& patches) {
@@ -96,7 +102,7 @@ FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double
   }
   // a body at rest does not tell: anything will do, at the price of more steps
   if (largest == 0.0) largest = widest > 0.0 ? widest / softness : 1.0;
-  const double pressure = largest;
+  const double pressure = at_start * largest;
   const double opening = pressure * softness;
   for (Face& face : faces_) {
     const ContactAnswer& now = patches.patches()[face.patch].now;
@@ -104,7 +110,7 @@ FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double
     face.touch.first = std::max(gap.normal * face.across.scale, opening);
     face.touch.second = std::max(-now.normal, pressure);
     if (!face.rubs) continue;
-    face.limit = face.limit_of(face.touch.second);
+    face.limit = face.limit_of(face.touch.second, friction_share_);
     face.shear = std::clamp(now.tangential, -0.9 * face.limit, 0.9 * face.limit);
     const double slip = gap.tangential * face.along.scale - face.along.compliance * face.shear;
     face.forwards.first = std::max(slip, opening);
@@ -142,12 +148,6 @@ double FaceBarrier::most() const {
   return share;
 }
 
-double FaceBarrier::relative(double product) const {
-  double largest = std::sqrt(tiny);
-  for (const Face& face : faces_) largest = std::max(largest, face.touch.second);
-  return product / (largest * largest * softness_);
-}
-
 std::vector<double> FaceBarrier::limits() const {
   std::vector<double> limits;
   for (const Face& face : faces_) limits.push_back(face.limit);
@@ -157,7 +157,7 @@ std::vector<double> FaceBarrier::limits() const {
 std::vector<double> FaceBarrier::limits_there() const {
   std::vector<double> limits;
   for (const Face& face : faces_)
-    limits.push_back(face.rubs ? face.limit_of(face.touch.to_second) : 0.0);
+    limits.push_back(face.rubs ? face.limit_of(face.touch.to_second, friction_share_) : 0.0);
   return limits;
 }
 
@@ -230,6 +230,7 @@ void FaceBarrier::aim_between() {
   const double ratio = before > 0.0 ? std::max(0.0, sum / count) / before : 0.0;
   barrier_ = before * ratio * ratio * ratio;
   if (stuck_ > 0) barrier_ = std::max(barrier_, 0.5 * before);
+  if (friction_share_ < 1.0) barrier_ = before;
   const double trust = stuck_ > 0 ? 0.0 : share * share;
   for_pairs(
       [&](Pair& p) { p.correction = trust * (p.to_first - p.first) * (p.to_second - p.second); });
@@ -242,6 +243,21 @@ void FaceBarrier::aim_at_centre(double share) {
     const double wanted = std::clamp(product, low * barrier_, high * barrier_);
     p.correction -= std::max(wanted - product, -high * barrier_);
   });
+}
+
+void FaceBarrier::note_product() {
+  const double now = mean();
+  if (now >= least_mean_) return;
+  least_mean_ = now;
+  double largest = 0.0;
+  for (const Face& face : faces_) largest = std::max(largest, face.touch.second);
+  product_ = largest * largest * softness_;
+}
+
+void FaceBarrier::keep_limits() {
+  for (Face& face : faces_) {
+    if (face.rubs) face.limit = face.limit_of(face.touch.second, friction_share_);
+  }
 }
 
 double FaceBarrier::step(const Solve& solve, double agree) {
@@ -266,23 +282,27 @@ double FaceBarrier::step(const Solve& solve, double agree) {
   }
   share = std::min(1.0, nearly_all * share);
   for_pairs([&](Pair& p) { p.go(share); });
-  for (Face& face : faces_) {
-    if (!face.rubs) continue;
-    face.shear += share * (face.to_shear - face.shear);
-    face.limit = face.limit_of(face.touch.second);
-  }
+  for (Face& face : faces_) face.shear += share * (face.to_shear - face.shear);
+  if (share > far_enough) friction_share_ = std::min(1.0, friction_share_ + more_friction);
+  keep_limits();
+  note_product();
   stuck_ = share < hardly ? stuck_ + 1 : 0;
   if (stuck_ == most_stuck) restart();
   return share;
 }
 
 void FaceBarrier::restart() {
-  // where some pairs are nearly at their end and others are not, steps stay short: all get the same
-  // product, greater each time, at the gaps where they are
-  constexpr double least = 1e-8, each_time = 100, greater = 10, rounding = 1e-12;
-  const double now = mean(), relative_now = relative(now);
-  const double to = std::max(greater * relative_now, least * std::pow(each_time, restarts_++));
-  const double product = now * to / relative_now;
+  // twice a little above where it is, then nearly from the start
+  constexpr int gently = 2;
+  constexpr double least = 1e-8, greater = 1e3, more = 100, full = 1e-2;
+  constexpr double rounding = 1e-12;
+  double product = full * product_;
+  if (restarts_ < gently) {
+    product = std::max(more * mean(), least * std::pow(greater, restarts_) * product_);
+  } else {
+    friction_share_ = least_friction;
+  }
+  ++restarts_;
   stuck_ = 0;
   for (Face& face : faces_) {
     const double c = face.across.compliance, gap = face.touch.first - c * face.touch.second;
@@ -290,7 +310,7 @@ void FaceBarrier::restart() {
     face.touch.second = gap > 0.0 ? 2 * product / (gap + root) : (root - gap) / (2 * c);
     face.touch.first = product / face.touch.second;
     if (!face.rubs) continue;
-    face.limit = face.limit_of(face.touch.second);
+    face.limit = face.limit_of(face.touch.second, friction_share_);
     const double along =
         face.along.compliance * face.shear + face.forwards.first - face.backwards.first;
     double low = -face.limit, high = face.limit;

@@ -5,6 +5,7 @@
 #include "core/mechanics/contact_patches.hpp"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace cdca {
@@ -70,7 +71,7 @@ class FaceBarrier {
     double spring_along() const;
     double zero_across(double barrier) const;  ///< m, likewise
     double zero_along(double barrier) const;
-    double limit_of(double pressure) const;
+    double limit_of(double pressure, double friction_share) const;
   };
   /// What a solve aims at.
   struct Aim {
@@ -82,13 +83,17 @@ class FaceBarrier {
   void solve_with_limits(const Solve& solve, double agree);
   void aim_between();
   void aim_at_centre(double share);
+  /// Where some pairs are nearly at their end and others are not, steps stay short, and with much
+  /// friction there may be no way on from there. All pairs get the same product, at the gaps where
+  /// they are, and friction comes back little by little.
   void restart();
   Aim aim() const;
   void aim(const Aim& at);
   double mean() const;
   double most() const;
-  double relative(double product) const;
   std::vector<double> limits() const;
+  void keep_limits();
+  void note_product();
   /// Those that follow from the pressures of the last solve.
   std::vector<double> limits_there() const;
   template <class Take>
@@ -99,9 +104,12 @@ class FaceBarrier {
   std::size_t patches_ = 0;  ///< number of them; those without a law are no faces
   std::vector<Face> faces_;
   double softness_;       ///< m/Pa
-  double barrier_ = 0.0;  ///< b that a solve aims at, Pa m
-  int stuck_ = 0;         ///< steps in a row that have hardly gone anywhere
+  double product_ = 0.0;  ///< of the largest pressure and what it opens in the body, Pa m
+  double least_mean_ = std::numeric_limits<double>::infinity();  ///< of products so far, Pa m
+  double barrier_ = 0.0;                                         ///< b that a solve aims at, Pa m
+  int stuck_ = 0;  ///< steps in a row that have hardly gone anywhere
   int restarts_ = 0;
+  double friction_share_ = 1.0;  ///< that counts
 };
 
 }  // namespace cdca

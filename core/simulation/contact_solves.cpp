@@ -66,7 +66,7 @@ void ContactSolves::turn_limits(double agreed, double part) {
 }
 
 ContactSolves::Balance ContactSolves::balance_faces(double enough) {
-  constexpr int most = 100;
+  constexpr int most = 150;
   constexpr double loosest = 1e-9;  // weak springs: the other faces hold loose bodies meanwhile
   constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
   ContactPatches& contact = model_.contact();
