@@ -228,7 +228,7 @@ double ContactSpots::energy_correction(const ContactPatches& patches, std::span<
   return communicator.sum(sum);
 }
 
-double ContactSpots::accept(ContactPatches& patches, std::span<const double> state,
+double ContactSpots::accept(ContactPatches& patches, std::span<const double> state, double after,
                             Communicator& communicator) const {
   std::vector<double> slips(patches.patches().size(), 0.0);
   for (const Spot& spot : spots_) {
@@ -250,7 +250,8 @@ double ContactSpots::accept(ContactPatches& patches, std::span<const double> sta
     ContactPatch& p = patches.patches()[k];
     // faces that have opened meanwhile are not known to have rubbed
     if (p.now.state != ContactState::open)
-      work += 0.5 * p.length * (p.tangential + p.now.tangential) * (slips[k] - p.slip);
+      work +=
+          p.length * ((1 - after) * p.tangential + after * p.now.tangential) * (slips[k] - p.slip);
     p.slip = slips[k];
   }
   return work;

@@ -59,8 +59,9 @@ class ContactSpots {
   double energy_correction(const ContactPatches& patches, std::span<const double> state,
                            Communicator& communicator) const;
   /// The faces have slipped as far as this state says. Returns the work that has gone into friction
-  /// since the last time, J per metre of thickness. Collective.
-  double accept(ContactPatches& patches, std::span<const double> state,
+  /// since the last time, J per metre of thickness. after: the part in it of the tractions of now;
+  /// the rest is that of the last time. Collective.
+  double accept(ContactPatches& patches, std::span<const double> state, double after,
                 Communicator& communicator) const;
 
   /// Sets the bodies on the sides of every patch. body_of(element, part): number, asked for

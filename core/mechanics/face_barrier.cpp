@@ -14,6 +14,8 @@ namespace {
 constexpr double tiny = std::numeric_limits<double>::min();
 /// Pairs may go that part of the way to where one of them would be 0.
 constexpr double nearly_all = 0.99;
+/// What is less than that part of the largest is 0.
+constexpr double rounding = 1e-15;
 /// A step that goes less far is hardly one; after so many of them there is a new start.
 constexpr double hardly = 0.1;
 constexpr int most_stuck = 2;
@@ -142,6 +144,12 @@ double FaceBarrier::mean() const {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+double FaceBarrier::largest_pressure() const {
+  double largest = 0.0;
+  for (const Face& face : faces_) largest = std::max(largest, face.touch.second);
+  return largest;
+}
+
 double FaceBarrier::most() const {
   double share = 1.0;
   for_pairs([&](const Pair& p) { share = std::min(share, p.most()); });
@@ -249,8 +257,7 @@ void FaceBarrier::note_product() {
   const double now = mean();
   if (now >= least_mean_) return;
   least_mean_ = now;
-  double largest = 0.0;
-  for (const Face& face : faces_) largest = std::max(largest, face.touch.second);
+  const double largest = largest_pressure();
   product_ = largest * largest * softness_;
 }
 
@@ -281,7 +288,12 @@ double FaceBarrier::step(const Solve& solve, double agree) {
     share = most();
   }
   share = std::min(1.0, nearly_all * share);
-  for_pairs([&](Pair& p) { p.go(share); });
+  const double pressure = rounding * largest_pressure(), opening = pressure * softness_;
+  for_pairs([&](Pair& p) {
+    p.go(share);
+    p.first = std::max(p.first, opening);
+    p.second = std::max(p.second, pressure);
+  });
   for (Face& face : faces_) face.shear += share * (face.to_shear - face.shear);
   if (share > far_enough) friction_share_ = std::min(1.0, friction_share_ + more_friction);
   keep_limits();
@@ -295,7 +307,6 @@ void FaceBarrier::restart() {
   // twice a little above where it is, then nearly from the start
   constexpr int gently = 2;
   constexpr double least = 1e-8, greater = 1e3, more = 100, full = 1e-2;
-  constexpr double rounding = 1e-12;
   double product = full * product_;
   if (restarts_ < gently) {
     product = std::max(more * mean(), least * std::pow(greater, restarts_) * product_);

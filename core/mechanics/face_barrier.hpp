@@ -91,6 +91,7 @@ class FaceBarrier {
   void aim(const Aim& at);
   double mean() const;
   double most() const;
+  double largest_pressure() const;
   std::vector<double> limits() const;
   void keep_limits();
   void note_product();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/contact_solves.hpp"
 
+#include "core/base/errors.hpp"
 #include "core/mechanics/face_barrier.hpp"
 #include "core/mechanics/fixed_point_mixing.hpp"
 
@@ -87,7 +88,12 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough) {
     built = false;
     given_.anchor = state;
     const double agree = of_unbalanced * balance.unbalanced;
-    const double share = faces.step(solve, std::clamp(agree, of_unbalanced * enough, agreeing));
+    double share = 0.0;
+    try {
+      share = faces.step(solve, std::clamp(agree, of_unbalanced * enough, agreeing));
+    } catch (const SolveError&) {
+      break;  // springs so different that no solve is possible with them
+    }
     std::vector<double> move = state;
     for (std::size_t k = 0; k < state.size(); ++k) {
       move[k] = share * (state[k] - given_.anchor[k]);

@@ -38,7 +38,9 @@ Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor,
 }
 
 /// What faces have slipped and where they are open becomes history.
-void accept(Model& model, EnergyLedger& energy) { energy.add_friction(model.accept_contact()); }
+void accept(Model& model, Model::Since since, EnergyLedger& energy) {
+  energy.add_friction(model.accept_contact(since));
+}
 
 /// Equilibrium at load factor `to`; where touching faces do not settle, by way of the middle, and
 /// so on, at most `halvings` times.
@@ -49,7 +51,7 @@ Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, do
   try {
     const Equilibrium equilibrium = solve(model, solver, to, recorder);
     energy.new_loads(model, equilibrium);
-    accept(model, energy);
+    accept(model, Model::Since::other_loads, energy);
     return equilibrium;
   } catch (const ContactError&) {
     if (halvings == 0) throw;
@@ -219,7 +221,7 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
         break;
       }
       energy.new_cracks(model, equilibrium);
-      accept(model, energy);
+      accept(model, Model::Since::other_cracks, energy);
       tips = criterion.assess(model, result.load_factor);
       at.cycles = cycle;
       if (recorder.rest(model, energy, at)) return;
@@ -271,7 +273,7 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
     result.last = !now.grows || event == spec.loading.max_events ||
                   factor < spec.loading.min_factor * largest;
     energy.new_cracks_and_factor(model, now.equilibrium, factor);
-    accept(model, energy);
+    accept(model, Model::Since::other_loads, energy);
     std::vector<Increment> increments;
     if (!result.last)
       increments = next_increments(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);

@@ -137,9 +137,10 @@ double Model::contact_energy() const {
   return contact_.empty() ? 0.0 : spots_.energy_correction(contact_, state_, communicator_);
 }
 
-double Model::accept_contact() {
+double Model::accept_contact(Since since) {
   if (contact_.empty()) return 0.0;
-  const double work = spots_.accept(contact_, state_, communicator_);
+  const double after = since == Since::other_loads ? 0.5 : 1.0;
+  const double work = spots_.accept(contact_, state_, after, communicator_);
   contact_.accept();
   return work;
 }

@@ -88,9 +88,13 @@ class Model {
   void add_contact_forces(std::span<double> forces) const;
   /// Stored in the springs of faces less what u K u / 2 counts, J per metre. Collective.
   double contact_energy() const;
+  /// What has changed since the last equilibrium.
+  enum class Since { other_loads, other_cracks };
   /// Slip, opening and traction of this equilibrium become history. Returns the work that has gone
-  /// into friction, J per metre. Collective.
-  double accept_contact();
+  /// into friction, J per metre: tractions change along with the loads, so that their mean counts;
+  /// where cracks have grown under the same load faces slide against what they exert afterwards,
+  /// which the move can never pay for with more than it releases. Collective.
+  double accept_contact(Since since = Since::other_loads);
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
