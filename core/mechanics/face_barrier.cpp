@@ -339,15 +339,17 @@ void FaceBarrier::restart() {
 }
 
 double FaceBarrier::unbalanced(const std::vector<ContactGap>& gaps) const {
-  double most = 0.0, largest = tiny;
+  double most = 0.0, largest = 0.0, widest = tiny;
   for (const Face& face : faces_) {
     const ContactGap& gap = gaps[face.patch];
+    widest = std::max(widest, gap.normal);
     const ContactAnswer a = contact_answer(face.spec, 0.0, gap, limit_at(face.spec, gap.normal));
     most = std::max(
         {most, std::abs(a.normal + face.touch.second), std::abs(a.tangential - face.shear)});
     largest = std::max({largest, std::abs(a.normal), std::abs(a.tangential)});
   }
-  return most / std::max(most, largest);
+  // where all are open, what they still exert is measured by what would close them
+  return most / std::max(most, largest > 0.0 ? largest : widest / softness_);
 }
 
 }  // namespace cdca

@@ -36,7 +36,8 @@ class FaceBarrier {
   double step(const Solve& solve, double agree);
 
   /// The largest difference between a traction that the steps have come to and what the laws answer
-  /// to such gaps, as a part of the largest traction.
+  /// to such gaps, as a part of the largest traction; where all faces are open, of what would close
+  /// the widest.
   double unbalanced(const std::vector<ContactGap>& gaps) const;
 
  private:
