@@ -70,19 +70,20 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough) {
   constexpr int most = 150;
   constexpr double loosest = 1e-9;  // weak springs: the other faces hold loose bodies meanwhile
   constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
+  constexpr double nearly = 1e-4;  // balanced: solves are exact from here on
   ContactPatches& contact = model_.contact();
   std::vector<double>& state = model_.state();
   FaceBarrier faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
                     gaps(), model_.grid().smallest_side() / model_.spec().material.young);
+  Balance balance;
   bool built = false;
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
     if (!built) build_stiffness(loosest);
     built = true;
-    once({});
+    once({1.0, balance.unbalanced > nearly ? of_unbalanced : 0.0});
     return gaps();
   };
-  Balance balance;
   while (!balance.found && balance.steps < most) {
     ++balance.steps;
     built = false;
