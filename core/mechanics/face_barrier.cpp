@@ -299,7 +299,8 @@ double FaceBarrier::step(const Solve& solve, double agree) {
   keep_limits();
   note_product();
   stuck_ = share < hardly ? stuck_ + 1 : 0;
-  if (stuck_ == most_stuck) restart();
+  began_anew_ = stuck_ == most_stuck;
+  if (began_anew_) restart();
   return share;
 }
 

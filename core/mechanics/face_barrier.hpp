@@ -35,6 +35,9 @@ class FaceBarrier {
   /// gone.
   double step(const Solve& solve, double agree);
 
+  /// Has the last step ended in a new start? Then body and faces are out of balance by any amount.
+  bool began_anew() const { return began_anew_; }
+
   /// The largest difference between a traction that the steps have come to and what the laws answer
   /// to such gaps, as a part of the largest traction; where all faces are open, of what would close
   /// the widest.
@@ -111,6 +114,7 @@ class FaceBarrier {
   double barrier_ = 0.0;                                         ///< b that a solve aims at, Pa m
   int stuck_ = 0;  ///< steps in a row that have hardly gone anywhere
   int restarts_ = 0;
+  bool began_anew_ = false;
   double friction_share_ = 1.0;  ///< that counts
 };
 
