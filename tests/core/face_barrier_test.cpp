@@ -129,5 +129,18 @@ TEST(FaceBarrier, FacesThatSlideKeepToTheirLimits) {
   expect_balance({ContactLaw::coulomb, stiff, 0.1 * stiff, friction, 0, 0, 0});
 }
 
+/// Nothing presses in the end, so that tractions cannot be measured by the largest of them.
+TEST(FaceBarrier, FacesThatAllOpenAreInBalance) {
+  const ContactPatches patches = patches_of({ContactLaw::frictionless, stiff, 0, 0, 0, 0, 0});
+  const std::size_t n = patches.patches().size();
+  Chain across(n, 0.3);
+  across.forces.setOnes();
+  const Balance found = balance(patches, across, Chain(n, 1.1));
+  EXPECT_LT(found.steps, 40);
+  const Eigen::VectorXd open = across.stiffness.ldlt().solve(across.forces);
+  for (std::size_t k = 0; k < n; ++k)
+    EXPECT_NEAR(found.gaps[k].normal, open[Eigen::Index(k)], 1e-8 * open.maxCoeff());
+}
+
 }  // namespace
 }  // namespace cdca::testing
