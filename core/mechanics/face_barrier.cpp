@@ -14,8 +14,9 @@ namespace {
 constexpr double tiny = std::numeric_limits<double>::min();
 /// Pairs may go that part of the way to where one of them would be 0.
 constexpr double nearly_all = 0.99;
-/// What is less than that part of the largest is 0.
-constexpr double rounding = 1e-15;
+/// No pressure is less than that part of the largest, lest products run out of numbers. Far less
+/// than rounding: the faces that are wide open must not hold up the others.
+constexpr double nothing = 1e-25;
 /// A step that goes less far is hardly one; after so many of them there is a new start.
 constexpr double hardly = 0.1;
 constexpr int most_stuck = 2;
@@ -288,7 +289,7 @@ double FaceBarrier::step(const Solve& solve, double agree) {
     share = most();
   }
   share = std::min(1.0, nearly_all * share);
-  const double pressure = rounding * largest_pressure(), opening = pressure * softness_;
+  const double pressure = nothing * largest_pressure(), opening = pressure * softness_;
   for_pairs([&](Pair& p) {
     p.go(share);
     p.first = std::max(p.first, opening);
@@ -307,6 +308,7 @@ double FaceBarrier::step(const Solve& solve, double agree) {
 void FaceBarrier::restart() {
   // twice a little above where it is, then nearly from the start
   constexpr int gently = 2;
+  constexpr double rounding = 1e-15;
   constexpr double least = 1e-8, greater = 1e3, more = 100, full = 1e-2;
   double product = full * product_;
   if (restarts_ < gently) {
