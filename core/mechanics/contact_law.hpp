@@ -38,7 +38,7 @@ struct ContactAnswer {
   /// spring: their traction is given.
   double normal_spring = 0.0;
   double tangential_spring = 0.0;
-  /// Gaps (m, with the body's share) where these springs exert nothing; other than 0 in a
+  /// Gaps (m, with the body's share) where these springs exert nothing; other than 0 in
   /// steps of FaceBarrier only.
   double normal_zero = 0.0;
   double tangential_zero = 0.0;

@@ -38,9 +38,4 @@ std::vector<double> FixedPointMixing::next(const std::vector<double>& tried,
   return {next.begin(), next.end()};
 }
 
-void FixedPointMixing::forget() {
-  tried_.clear();
-  found_.clear();
-}
-
 }  // namespace cdca

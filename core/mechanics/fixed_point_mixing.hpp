@@ -15,8 +15,6 @@ class FixedPointMixing {
   explicit FixedPointMixing(std::size_t depth) : depth_(depth) {}
   /// What to try after `tried` led to `found`.
   std::vector<double> next(const std::vector<double>& tried, const std::vector<double>& found);
-  /// Starts anew.
-  void forget();
 
  private:
   std::size_t depth_;

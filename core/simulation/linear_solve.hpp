@@ -15,8 +15,8 @@ struct Forces {
   std::vector<double> faces;        ///< of given tractions between touching faces, likewise
   std::vector<double> held;         ///< prescribed displacements, m
   std::vector<double> pulled = {};  ///< what they exert, set in the solve
-  std::vector<double> anchor =
-      {};  ///< state in which weak springs pull with nothing; the model's, if empty
+  /// State in which weak springs pull with nothing; the model's, if empty.
+  std::vector<double> anchor = {};
   std::int64_t version = -1;  ///< of the stiffness that they exert it with
 };
 

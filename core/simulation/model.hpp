@@ -91,9 +91,8 @@ class Model {
   /// What has changed since the last equilibrium.
   enum class Since { other_loads, other_cracks };
   /// Slip, opening and traction of this equilibrium become history. Returns the work that has gone
-  /// into friction, J per metre: tractions change along with the loads, so that their mean counts;
-  /// where cracks have grown under the same load faces slide against what they exert afterwards,
-  /// which the move can never pay for with more than it releases. Collective.
+  /// into friction, J per metre: against the mean of the tractions before and after where the loads
+  /// have changed, against those after where cracks have grown under the same loads. Collective.
   double accept_contact(Since since = Since::other_loads);
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }

@@ -121,6 +121,24 @@ struct Blocks {
   }
 };
 
+/// Friction takes the mean of the tractions before and after where the loads have changed, and
+/// those after where cracks have grown: from rest, twice as much; once it slides, the same.
+TEST(FrictionWork, CountsTheTractionsOfItsPath) {
+  using Since = Model::Since;
+  Blocks by_loads(1.0), by_cracks(1.0);
+  const auto slide = [](Blocks& blocks, double to, Since since) {
+    find_equilibrium(*blocks.model, *make_solver(*blocks.model), to);
+    return blocks.model->accept_contact(since);
+  };
+  slide(by_loads, 0.0, Since::other_loads);
+  slide(by_cracks, 0.0, Since::other_loads);
+  const double mean = slide(by_loads, 0.01, Since::other_loads);
+  EXPECT_GT(mean, 0.0);
+  EXPECT_NEAR(slide(by_cracks, 0.01, Since::other_cracks), 2 * mean, 1e-6 * mean);
+  const double further = slide(by_loads, 0.02, Since::other_loads);
+  EXPECT_NEAR(slide(by_cracks, 0.02, Since::other_cracks), further, 1e-6 * further);
+}
+
 class SlidingBlock : public ::testing::TestWithParam<double> {};
 
 /// M4: below the limit the force grows with the move; at it the block slides, whatever more; on the
