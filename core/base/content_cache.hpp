@@ -65,6 +65,13 @@ class ContentCache {
     return *entry.value;
   }
 
+  /// A value known from earlier cycles stays, as if it had been asked for.
+  void keep(std::uint64_t signature) {
+    Entry& entry = store_.at(signature);
+    if (entry.asked < cycle_) ++reused_;
+    entry.asked = cycle_;
+  }
+
   /// Values made and values of earlier cycles found again since begin_cycle().
   std::int64_t made() const { return made_; }
   std::int64_t reused() const { return reused_; }

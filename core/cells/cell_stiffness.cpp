@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
+#include "core/cells/carried_cells.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -55,13 +58,71 @@ std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
   return found;
 }
 
+/// Rows that are what they were before the cracks grew.
+class KeptRows {
+ public:
+  /// carried: null for none. count: of the unknowns now.
+  KeptRows(const CarriedCells* carried, std::size_t count) : carried_(carried) {
+    if (!carried) return;
+    row_of_.assign(count, -1);
+    const auto& before = carried->rows().unknown;
+    kept_.assign(before.size(), 0);
+    for (std::size_t r = 0; r < before.size(); ++r) {
+      const LocalId u = carried->now(before[r]);
+      if (u >= 0) row_of_[std::size_t(u)] = std::ptrdiff_t(r);
+    }
+  }
+  /// Keeps the rows of all these unknowns of a cell, if there are such.
+  bool keep(const std::vector<LocalId>& unknowns) {
+    for (const LocalId u : unknowns) {
+      if (row_of_[std::size_t(u)] < 0) return false;
+    }
+    for (const LocalId u : unknowns) kept_[std::size_t(row_of_[std::size_t(u)])] = 1;
+    return true;
+  }
+  /// The rows kept, and those made anew.
+  StiffnessRows with(StiffnessRows made) const {
+    if (!carried_) return made;
+    const StiffnessRows& before = carried_->rows();
+    StiffnessRows all;
+    std::size_t m = 0;
+    const auto add_made = [&](LocalId end) {
+      for (; m < made.unknown.size() && made.unknown[m] < end; ++m) {
+        const auto from = std::ptrdiff_t(made.start[m]), to = std::ptrdiff_t(made.start[m + 1]);
+        all.unknown.push_back(made.unknown[m]);
+        all.column.insert(all.column.end(), made.column.begin() + from, made.column.begin() + to);
+        all.value.insert(all.value.end(), made.value.begin() + from, made.value.begin() + to);
+        all.start.push_back(all.column.size());
+      }
+    };
+    for (std::size_t r = 0; r < before.unknown.size(); ++r) {
+      if (!kept_[r]) continue;
+      const LocalId unknown = carried_->now(before.unknown[r]);
+      add_made(unknown);
+      const std::size_t from = before.start[r], to = before.start[r + 1];
+      all.unknown.push_back(unknown);
+      for (std::size_t k = from; k < to; ++k) all.column.push_back(carried_->now(before.column[k]));
+      all.value.insert(all.value.end(), before.value.begin() + std::ptrdiff_t(from),
+                       before.value.begin() + std::ptrdiff_t(to));
+      all.start.push_back(all.column.size());
+    }
+    add_made(std::numeric_limits<LocalId>::max());
+    return all;
+  }
+
+ private:
+  const CarriedCells* carried_;
+  std::vector<std::ptrdiff_t> row_of_;  ///< of an unknown now: its row before
+  std::vector<char> kept_;              ///< by row before
+};
+
 }  // namespace
 
 CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns,
                              ElementStiffness& elements, const std::vector<char>& held,
                              const std::vector<double>& springs,
                              const std::vector<GlobalId>& own_rows, Sweeps sweeps,
-                             Communicator& communicator)
+                             Communicator& communicator, const CarriedCells* carried)
     : communicator_(communicator),
       halo_(communicator, unknowns.shared(mesh)),
       owned_(unknowns.owned()),
@@ -72,7 +133,7 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
     if (n >= 0) regular[std::size_t(n)] = 0;
   }
   regular_ = RegularRuns(mesh, regular, elements.plain());
-  build_rows(mesh, unknowns, elements, regular);
+  build_rows(mesh, unknowns, elements, regular, carried);
   hold_idle_functions(mesh, unknowns);
   if (!springs.empty()) add_springs(springs);
   if (sweeps == Sweeps::one_after_the_other) {
@@ -86,21 +147,30 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
 }
 
 void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                               ElementStiffness& elements, const std::vector<char>& regular) {
-  std::vector<char> wanted(std::size_t(count_), 0);
+                               ElementStiffness& elements, const std::vector<char>& regular,
+                               const CarriedCells* carried) {
+  KeptRows kept(carried, std::size_t(count_));
+  std::vector<char> wanted(std::size_t(count_), 0), anew(std::size_t(mesh.node_count()), 0);
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
     if (regular[std::size_t(n)]) continue;
-    for (const LocalId u : unknowns.of_cell(n)) wanted[std::size_t(u)] = 1;
+    const auto own = unknowns.of_cell(n);
+    if (carried && carried->same(n) && kept.keep(own)) continue;
+    anew[std::size_t(n)] = 1;
+    for (const LocalId u : own) wanted[std::size_t(u)] = 1;
   }
   RowSum sum;
   const auto& special = elements.special();
   auto next_special = special.begin();
   for (const GlobalId id : elements_round_own_rows(mesh, regular)) {
     const GridIndex element = mesh.grid().element_index(id);
+    const auto nodes = mesh.element_nodes(element);
+    if (std::none_of(nodes.begin(), nodes.end(),
+                     [&](LocalId n) { return n >= 0 && anew[std::size_t(n)]; }))
+      continue;
     while (next_special != special.end() && *next_special < id) ++next_special;
     if (next_special == special.end() || *next_special != id) {
       std::vector<LocalId> of_nodes;
-      for (const LocalId n : mesh.element_nodes(element)) {
+      for (const LocalId n : nodes) {
         const LocalId first = unknowns.of_piece(n, 0);
         of_nodes.insert(of_nodes.end(), {first, first + 1});
       }
@@ -110,7 +180,7 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
     for (PartStiffness& own : elements.parts(element))
       sum.add(std::move(own.unknowns), std::move(own.matrix));
   }
-  rows_ = sum.rows(wanted, owned_);
+  rows_ = kept.with(sum.rows(wanted, owned_));
 }
 
 void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {

@@ -15,6 +15,8 @@
 
 namespace cdca {
 
+class CarriedCells;
+
 /// Which sweeps of the rule the cells must be ready for.
 enum class Sweeps { none, one_after_the_other };
 
@@ -24,10 +26,12 @@ class CellStiffness final : public CellSystem {
  public:
   /// held: for every unknown, whether a support prescribes it; springs: of every unknown, a weak
   /// spring as a part of its own stiffness, where nothing else holds its body (may be empty).
-  /// own_rows: nodes of cells that get rows even though they are regular.
+  /// own_rows: nodes of cells that get rows even though they are regular. carried: what can be
+  /// taken over from before the cracks grew; null for nothing.
   CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                 const std::vector<char>& held, const std::vector<double>& springs,
-                const std::vector<GlobalId>& own_rows, Sweeps sweeps, Communicator& communicator);
+                const std::vector<GlobalId>& own_rows, Sweeps sweeps, Communicator& communicator,
+                const CarriedCells* carried = nullptr);
 
   LocalId owned() const override { return owned_; }
   LocalId count() const override { return count_; }
@@ -54,6 +58,8 @@ class CellStiffness final : public CellSystem {
   const StiffnessRows& rows() const { return rows_; }
   /// Own unknowns that supports hold, ascending.
   const std::vector<LocalId>& held() const { return held_; }
+  /// Of own unknowns with weak springs: what these add to their stiffness, Pa.
+  const std::vector<std::pair<LocalId, double>>& springs() const { return springs_; }
   /// Cells that use the common stencil.
   std::int64_t regular_cells() const { return regular_.cells(); }
   std::int64_t own_row_entries() const { return std::int64_t(rows_.value.size()); }
@@ -68,7 +74,7 @@ class CellStiffness final : public CellSystem {
   };
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
-                  const std::vector<char>& regular);
+                  const std::vector<char>& regular, const CarriedCells* carried);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
   /// only, are held at 0: of one cell, and of all cells of a zone of one element.
   void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);

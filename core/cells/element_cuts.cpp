@@ -6,15 +6,7 @@ namespace cdca {
 ElementCuts::ElementCuts(const StructuredGrid& grid, CrackPaths paths, const ElementCuts& previous)
     : grid_(grid), paths_(std::move(paths)) {
   for (const auto& [id, cut] : previous.cache_) {
-    const GridIndex e = grid_.element_index(id);
-    const auto now = paths_.steps_in(e), before = previous.paths_.steps_in(e);
-    bool same = now.size() == before.size();
-    for (std::size_t k = 0; same && k < now.size(); ++k) {
-      const PathStep &a = paths_.steps()[std::size_t(now[k])],
-                     &b = previous.paths_.steps()[std::size_t(before[k])];
-      same = a.from == b.from && a.to == b.to;
-    }
-    if (same) cache_.emplace(id, cut);
+    if (paths_.same_steps(previous.paths_, grid_.element_index(id))) cache_.emplace(id, cut);
   }
 }
 

@@ -179,4 +179,12 @@ const std::vector<int>& CrackPaths::steps_in(GridIndex element) const {
   return it == by_element_.end() ? none : it->second;
 }
 
+bool CrackPaths::same_steps(const CrackPaths& other, GridIndex element) const {
+  const auto &mine = steps_in(element), &theirs = other.steps_in(element);
+  return std::equal(mine.begin(), mine.end(), theirs.begin(), theirs.end(), [&](int k, int l) {
+    const PathStep &a = steps_[std::size_t(k)], &b = other.steps_[std::size_t(l)];
+    return a.from == b.from && a.to == b.to;
+  });
+}
+
 }  // namespace cdca

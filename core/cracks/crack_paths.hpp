@@ -47,6 +47,8 @@ class CrackPaths {
   const PathStep& step_in(GridIndex element, int index) const {
     return steps_[std::size_t(steps_in(element)[std::size_t(index)])];
   }
+  /// Do the cracks run through the element as those of `other`?
+  bool same_steps(const CrackPaths& other, GridIndex element) const;
   const std::vector<PathTip>& tips() const { return tips_; }
 
  private:

@@ -80,6 +80,11 @@ CoarseParts::CoarseParts(const ScaleParts& finer, int level, GridIndex body,
   join_bonds();
 }
 
+void CoarseParts::take_over(CoarseParts& before, const std::vector<GlobalId>& changed) {
+  cache_ = std::move(before.cache_);
+  for (const GlobalId id : changed) cache_.erase(id);
+}
+
 void CoarseParts::join_bonds() {
   std::map<std::array<int, 6>, std::size_t> place;
   for (const Bond& fine : finer_.bonds()) {

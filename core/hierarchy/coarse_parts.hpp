@@ -53,6 +53,8 @@ class CoarseParts final : public ScaleParts {
  public:
   /// level: 1 for the first scale above the grid. body: elements of the grid itself.
   CoarseParts(const ScaleParts& finer, int level, GridIndex body, const ElasticMatrix& elastic);
+  /// Takes the elements of before the cracks grew but for those that have changed.
+  void take_over(CoarseParts& before, const std::vector<GlobalId>& changed);
 
   const StructuredGrid& grid() const override { return grid_; }
   const std::vector<GlobalId>& touched_elements() const override { return touched_; }

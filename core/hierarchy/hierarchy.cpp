@@ -4,6 +4,7 @@
 #include "core/hierarchy/coarse_supports.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace cdca {
 
@@ -69,24 +70,26 @@ class Hierarchy::Level final : public Scale {
                                            *next.unknowns_, *next.parts_);
   }
   void set_cells(std::vector<GlobalId> own_rows, const CoarseSupports& supports,
-                 Communicator& communicator) {
+                 Communicator& communicator, const CarriedCells* carried) {
     CoarseElements elements(*mesh_, *unknowns_, *parts_);
     const auto at_points = supports.cells_at_points(*mesh_);
     own_rows.insert(own_rows.end(), at_points.begin(), at_points.end());
-    own_cells_ =
-        std::make_unique<CellStiffness>(*mesh_, *unknowns_, elements, supports.held(),
-                                        supports.springs(), own_rows, Sweeps::none, communicator);
+    own_cells_ = std::make_unique<CellStiffness>(*mesh_, *unknowns_, elements, supports.held(),
+                                                 supports.springs(), own_rows, Sweeps::none,
+                                                 communicator, carried);
     cells_ = own_cells_.get();
   }
-  void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors) {
+  void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors,
+                    const Level* before, const CarriedCells* carried) {
     plain_ = PlainCells(*mesh_, *unknowns_, *cells_, plain, plans.near_cracks);
-    windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors);
+    windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors,
+                                         before ? before->windows_.get() : nullptr, carried);
   }
   void set_coarsest(EliminationOrder& order) {
     coarsest_ = std::make_unique<CoarsestSolve>(*cells_, order);
   }
 
-  const CoarseParts* parts() const { return parts_.get(); }
+  CoarseParts* parts() const { return parts_.get(); }
   const CellStiffness& stiffness() const { return *cells_; }
   const CellUnknowns& unknowns() const { return *unknowns_; }
   const Transfer& transfer() const { return *transfer_; }
@@ -133,7 +136,12 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   const GridIndex body{basis.mesh.grid().nx(), basis.mesh.grid().ny()};
   lay_meshes(basis.mesh);
   factors_.begin_cycle();
+  auto before = std::move(levels_);
+  if (!finest.carried) before.clear();
   levels_.clear();
+  const auto level_before = [&](std::size_t k) {
+    return before.empty() ? nullptr : before[k].get();
+  };
   finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic, finest.faces);
   levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
   if (meshes_.empty()) {
@@ -141,13 +149,19 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     return;
   }
   const PlainStiffness element = plain_stiffness(basis.mesh.grid().element_size(), finest.elastic);
-  levels_[0]->set_smoother(finest_plans_, element, factors_);
+  levels_[0]->set_smoother(finest_plans_, element, factors_, level_before(0), finest.carried);
   CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
+  std::vector<GlobalId> changed;
+  if (finest.carried) changed = finest.carried->changed();
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
-    levels_.emplace_back(new Level(
-        meshes_[k], std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic),
-        communicator));
+    auto own_parts = std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic);
+    const Level* was = level_before(k + 1);
+    if (was) {
+      changed = parents_of(changed, finer->grid());
+      own_parts->take_over(*was->parts(), changed);
+    }
+    levels_.emplace_back(new Level(meshes_[k], std::move(own_parts), communicator));
     Level& level = *levels_.back();
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
@@ -158,12 +172,18 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
       return sum;
     });
     const bool coarsest = k + 1 == meshes_.size();
+    std::optional<CarriedCells> carried;
+    if (was) {
+      carried.emplace(meshes_[k], was->unknowns(), was->stiffness(), level.unknowns(), changed,
+                      supports.held(), supports.springs());
+    }
+    const CarriedCells* same = carried ? &*carried : nullptr;
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
-    level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), supports, communicator);
+    level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), supports, communicator, same);
     if (coarsest) {
       level.set_coarsest(order_);
     } else {
-      level.set_smoother(plans, parts.plain(), factors_);
+      level.set_smoother(plans, parts.plain(), factors_, was, same);
     }
     finer = &parts;
   }

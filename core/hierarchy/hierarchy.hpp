@@ -27,6 +27,8 @@ struct FinestScale {
   const std::vector<char>& held;       ///< of every unknown
   const std::vector<double>& springs;  ///< of every unknown, relative; may be empty
   const FaceSprings* faces;            ///< between touching faces; null for none
+  /// What has stayed since build() was called last; null for nothing.
+  const CarriedCells* carried = nullptr;
 };
 
 /// All scales of a body.
@@ -36,9 +38,10 @@ class Hierarchy final : public Scales {
 
   /// Lays out the windows of the finest scale. Returns the cells that need rows of their own.
   std::vector<GlobalId> plan(const BasisContext& basis);
-  /// Everything else, on the finest scale's cells. Meshes of coarse scales are kept from call to
-  /// call, factors of windows that have not changed, and the order of elimination on the coarsest
-  /// scale. Collective.
+  /// Everything else, on the finest scale's cells. Kept from call to call are meshes of coarse
+  /// scales, factors of windows whose stiffness is the same, and the order of elimination on the
+  /// coarsest scale; with `carried` also coarse elements, rows and windows that growth has left as
+  /// they were. Collective.
   void build(const FinestScale& finest, const CellStiffness& cells);
 
   std::size_t count() const override { return levels_.size(); }

@@ -23,8 +23,9 @@ std::uint64_t signature_of(std::size_t size, const WindowFactors::Entries& entri
 
 }  // namespace
 
-const WindowFactor& WindowFactors::of(std::size_t size, const Entries& entries) {
-  return factors_.of(signature_of(size, entries), [&] {
+WindowFactors::Found WindowFactors::of(std::size_t size, const Entries& entries) {
+  const std::uint64_t signature = signature_of(size, entries);
+  const WindowFactor& factor = factors_.of(signature, [&] {
     const auto unknowns = Eigen::Index(size);
     Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -34,6 +35,7 @@ const WindowFactor& WindowFactors::of(std::size_t size, const Entries& entries) 
     }
     return made;
   });
+  return {&factor, signature};
 }
 
 /// Finds shares, collects the stiffness of every window on the rank that solves it, and lays down
@@ -41,12 +43,15 @@ const WindowFactor& WindowFactors::of(std::size_t size, const Entries& entries) 
 class Windows::Builder {
  public:
   Builder(Windows& windows, const WindowPlans& plans, const LocalMesh& mesh,
-          const CellUnknowns& unknowns, WindowFactors& factors)
+          const CellUnknowns& unknowns, WindowFactors& factors, const Windows* before,
+          const CarriedCells* carried)
       : windows_(windows),
         plans_(plans),
         mesh_(mesh),
         unknowns_(unknowns),
         factors_(factors),
+        before_(before),
+        carried_(carried),
         held_(std::size_t(unknowns.count()), 0),
         place_(std::size_t(unknowns.count()), outside) {
     for (const LocalId u : windows.cells_.held()) held_[std::size_t(u)] = 1;
@@ -57,7 +62,12 @@ class Windows::Builder {
     for (std::size_t w = 0; w < plans_.windows.size(); ++w) add_window(w);
     tell_solvers();
     for (auto& [w, draft] : drafts_) {
-      if (draft.solver == rank()) add_solved(w, draft);
+      if (draft.solver != rank()) continue;
+      if (draft.kept) {
+        add_kept(w, draft);
+      } else {
+        add_solved(w, draft);
+      }
     }
     set_exchanges();
   }
@@ -83,6 +93,7 @@ class Windows::Builder {
     std::size_t share = 0;
     Contribution own;
     std::map<int, Contribution> remote;
+    const Solved* kept = nullptr;  ///< of before the cracks grew
   };
 
   int rank() const { return mesh_.rank(); }
@@ -99,8 +110,48 @@ class Windows::Builder {
     }
     if (!draft.ranks.count(rank())) return;
     draft.share = windows_.shares_.size();
-    windows_.shares_.push_back(make_share(nodes, draft.own));
+    draft.kept = find_kept(plans_.windows[w]);
+    windows_.shares_.push_back(draft.kept ? carried_share(before_->shares_[draft.kept->share])
+                                          : make_share(nodes, draft.own));
     drafts_.emplace(w, std::move(draft));
+  }
+
+  /// The window of the same cells before the cracks grew, if all about these is as it was.
+  const Solved* find_kept(const WindowPlan& plan) const {
+    if (!before_) return nullptr;
+    const auto at = before_->own_.find(plan.nodes);
+    if (at == before_->own_.end()) return nullptr;
+    const auto [colour, place] = at->second;
+    const auto same = [&](GlobalId id) {
+      return carried_->same(mesh_.find_node(mesh_.grid().node_index(id)));
+    };
+    if (!std::all_of(plan.nodes.begin(), plan.nodes.end(), same)) return nullptr;
+    return &before_->colours_[colour].solved[place];
+  }
+
+  Share carried_share(const Share& before) const {
+    Share share = before;
+    for (LocalId& u : share.members) u = carried_->now(u);
+    for (Coupling& c : share.couplings) c.outside = carried_->now(c.outside);
+    return share;
+  }
+
+  void add_kept(std::size_t w, const Draft& draft) {
+    Solved solved;
+    solved.share = draft.share;
+    solved.size = draft.kept->size;
+    solved.found = draft.kept->found;
+    if (solved.found.factor) factors_.keep(solved.found);
+    place(w, std::move(solved));
+  }
+
+  /// Puts a window where it belongs.
+  void place(std::size_t w, Solved solved) {
+    const WindowPlan& plan = plans_.windows[w];
+    auto& list = windows_.colours_[std::size_t(plan.colour)].solved;
+    solved_place_[w] = {std::size_t(plan.colour), list.size()};
+    if (drafts_.at(w).ranks.size() == 1) windows_.own_.emplace(plan.nodes, solved_place_[w]);
+    list.push_back(std::move(solved));
   }
 
   /// Own members, their couplings to cells outside, and their rows inside.
@@ -241,10 +292,8 @@ class Windows::Builder {
     entries.reserve(draft.own.entries.size());
     add(draft.own);
     for (const auto& [from, c] : draft.remote) add(c);
-    if (solved.size > 0) solved.factor = &factors_.of(solved.size, entries);
-    solved_place_[w] = {std::size_t(plans_.windows[w].colour),
-                        windows_.colours_[std::size_t(plans_.windows[w].colour)].solved.size()};
-    windows_.colours_[std::size_t(plans_.windows[w].colour)].solved.push_back(std::move(solved));
+    if (solved.size > 0) solved.found = factors_.of(solved.size, entries);
+    place(w, std::move(solved));
     draft.own = {};
   }
 
@@ -289,6 +338,8 @@ class Windows::Builder {
   const LocalMesh& mesh_;
   const CellUnknowns& unknowns_;
   WindowFactors& factors_;
+  const Windows* before_;
+  const CarriedCells* carried_;
   std::vector<char> held_;
   std::vector<int> place_;
   std::map<std::size_t, Draft> drafts_;
@@ -296,9 +347,10 @@ class Windows::Builder {
 };
 
 Windows::Windows(const WindowPlans& plans, const LocalMesh& mesh, const CellUnknowns& unknowns,
-                 const CellStiffness& cells, WindowFactors& factors)
+                 const CellStiffness& cells, WindowFactors& factors, const Windows* before,
+                 const CarriedCells* carried)
     : cells_(cells) {
-  Builder(*this, plans, mesh, unknowns, factors).build();
+  Builder(*this, plans, mesh, unknowns, factors, before, carried).build();
 }
 
 void Windows::move(SweepDirection direction, std::span<double> forces,
@@ -332,7 +384,7 @@ void Windows::move_colour(const Colour& colour, std::span<double> forces,
   }
   Eigen::VectorXd force, move;
   for (const Solved& window : colour.solved) {
-    if (!window.factor) continue;
+    if (!window.found.factor) continue;
     const Share& share = shares_[window.share];
     force.resize(Eigen::Index(window.size));
     Eigen::Index at = 0;
@@ -340,7 +392,7 @@ void Windows::move_colour(const Colour& colour, std::span<double> forces,
     for (const auto& [start, count] : window.remote) {
       for (std::size_t k = 0; k < count; ++k) force[at++] = received[start + k];
     }
-    move = window.factor->solve(force);
+    move = window.found.factor->solve(force);
     apply(share, move.data(), forces, moves);
     at = Eigen::Index(share.members.size());
     for (const auto& [start, count] : window.remote) {

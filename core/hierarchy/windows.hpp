@@ -3,11 +3,12 @@
 #pragma once
 
 #include "core/base/content_cache.hpp"
-#include "core/cells/cell_stiffness.hpp"
+#include "core/cells/carried_cells.hpp"
 #include "core/hierarchy/window_plan.hpp"
 
 #include <Eigen/SparseCholesky>
 
+#include <map>
 #include <memory>
 
 namespace cdca {
@@ -22,7 +23,12 @@ class WindowFactors {
   void begin_cycle() { factors_.begin_cycle(); }
   /// Entries of the stiffness of a window of so many unknowns.
   using Entries = std::vector<Eigen::Triplet<double>>;
-  const WindowFactor& of(std::size_t size, const Entries& entries);
+  struct Found {
+    const WindowFactor* factor = nullptr;
+    std::uint64_t signature = 0;
+  };
+  Found of(std::size_t size, const Entries& entries);
+  void keep(const Found& found) { factors_.keep(found.signature); }
   std::int64_t made() const { return factors_.made(); }
   std::int64_t reused() const { return factors_.reused(); }
 
@@ -34,9 +40,11 @@ class WindowFactors {
 /// send their forces and receive their moves, so that the result does not depend on the ranks.
 class Windows {
  public:
-  /// cells must have rows for all cells of windows. Collective.
+  /// cells must have rows for all cells of windows. before, carried: the windows of before the
+  /// cracks grew, and what has stayed as it was; null for none. Collective.
   Windows(const WindowPlans& plans, const LocalMesh& mesh, const CellUnknowns& unknowns,
-          const CellStiffness& cells, WindowFactors& factors);
+          const CellStiffness& cells, WindowFactors& factors, const Windows* before = nullptr,
+          const CarriedCells* carried = nullptr);
 
   /// Brings the windows of each colour into equilibrium, from the first colour to the last or the
   /// other way round: moves are added, forces brought up to date. Collective.
@@ -59,7 +67,7 @@ class Windows {
     std::size_t share;                                        ///< this rank's own
     std::vector<std::pair<std::size_t, std::size_t>> remote;  ///< place and number of what comes in
     std::size_t size = 0;
-    const WindowFactor* factor = nullptr;
+    WindowFactors::Found found;  ///< no factor where all is held
   };
   /// Values that go from shares to solving ranks; the moves come back the same way.
   struct Colour {
@@ -79,6 +87,8 @@ class Windows {
   const CellStiffness& cells_;
   std::vector<Share> shares_;
   std::vector<Colour> colours_;
+  /// Of windows that this rank has all to itself, by their nodes: colour, and place in it.
+  std::map<std::vector<GlobalId>, std::pair<std::size_t, std::size_t>> own_;
 };
 
 }  // namespace cdca

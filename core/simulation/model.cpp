@@ -145,17 +145,20 @@ double Model::accept_contact(Since since) {
   return work;
 }
 
-void Model::build_stiffness(double weak_share) {
+void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
+
+void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   ++stiffness_version_;
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
   const bool multilevel = spec_.solver.method == SolverMethod::multilevel;
+  const auto before = std::move(stiffness_);  // what is carried refers to it
   stiffness_ = std::make_unique<CellStiffness>(
       mesh_, unknowns_, *elements_, held, weak,
       multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
-      multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_);
-  if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces}, *stiffness_);
+      multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_, carried);
+  if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces, carried}, *stiffness_);
   cells_ = std::make_unique<TurnedCells>(*stiffness_, spots_);
   built_weak_share_ = weak_share;
   built_answers_.clear();
@@ -189,7 +192,15 @@ void Model::lay_cracks(CrackRegistry registry) {
   build_cells();
   close_new_faces();
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
-  build_stiffness();
+  constexpr double weak_share = 1e-3;
+  if (!contact_.empty() || !stiffness_) {
+    make_stiffness(weak_share, nullptr);
+    return;
+  }
+  const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_,
+                             changed_elements(old_cuts, old_zones, cuts_, zones_),
+                             supports_.flags(unknowns_.count()), springs(weak_share));
+  make_stiffness(weak_share, &carried);
 }
 
 std::vector<std::size_t> Model::loose_bodies() const {

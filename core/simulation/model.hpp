@@ -132,6 +132,7 @@ class Model {
   void close_new_faces();
   void build_cells();
   void find_bodies();
+  void make_stiffness(double weak_share, const CarriedCells* carried);
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;
   /// Faces that count as holding one body to another.

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/cells/carried_cells.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace cdca {
+
+namespace {
+
+void sort_once(std::vector<GlobalId>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+bool same_zone(const TipZone& a, const TipZone& b) {
+  return a.crack == b.crack && a.end == b.end && a.frame.path() == b.frame.path() &&
+         a.frame.valid_radius() == b.frame.valid_radius() && a.nodes == b.nodes &&
+         a.with_modes == b.with_modes && a.parts == b.parts;
+}
+
+void add_elements_of_others(const std::vector<TipZone>& zones, const std::vector<TipZone>& others,
+                            std::vector<GlobalId>& elements) {
+  for (const TipZone& zone : zones) {
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const TipZone& other) { return same_zone(zone, other); }))
+      continue;
+    for (const auto& [id, acts] : zone.parts) elements.push_back(id);
+  }
+}
+
+/// A cell has the same pieces, of the same parts, and as many near-tip unknowns.
+bool same_unknowns(const SpecialCell& a, const SpecialCell& b) {
+  return a.pieces == b.pieces &&
+         std::equal(a.tips.begin(), a.tips.end(), b.tips.begin(), b.tips.end(),
+                    [](const TipUnknowns& s, const TipUnknowns& t) { return s.count == t.count; });
+}
+
+}  // namespace
+
+std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vector<TipZone>& zones,
+                                       const ElementCuts& after,
+                                       const std::vector<TipZone>& zones_after) {
+  std::vector<GlobalId> changed;
+  for (const auto* cuts : {&before, &after}) {
+    for (const GlobalId id : cuts->touched_elements()) {
+      const GridIndex e = after.grid().element_index(id);
+      if (!after.paths().same_steps(before.paths(), e)) changed.push_back(id);
+    }
+  }
+  add_elements_of_others(zones, zones_after, changed);
+  add_elements_of_others(zones_after, zones, changed);
+  sort_once(changed);
+  return changed;
+}
+
+std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements,
+                                 const StructuredGrid& grid) {
+  const StructuredGrid coarser = grid.coarser();
+  std::vector<GlobalId> parents;
+  for (const GlobalId id : elements) {
+    const GridIndex e = grid.element_index(id);
+    parents.push_back(coarser.element({e.i / 2, e.j / 2}));
+  }
+  sort_once(parents);
+  return parents;
+}
+
+CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+                           const CellStiffness& before, const CellUnknowns& unknowns,
+                           std::vector<GlobalId> changed, const std::vector<char>& held,
+                           const std::vector<double>& springs)
+    : before_(before),
+      changed_(std::move(changed)),
+      same_(std::size_t(mesh.node_count()), 1),
+      now_(std::size_t(unknowns_before.count()), -1) {
+  const auto differs_round = [&](LocalId node) {
+    const GridIndex at = mesh.node(node);
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        const LocalId n = mesh.find_node({at.i + di, at.j + dj});
+        if (n >= 0) same_[std::size_t(n)] = 0;
+      }
+    }
+  };
+  // corners of changed elements; what their near-tip functions look like is told by other elements
+  for (const GlobalId id : changed_) {
+    for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
+      const LocalId n = mesh.find_node(corner);
+      if (n < 0) continue;
+      same_[std::size_t(n)] = 0;
+      if (!unknowns.tips(n).empty()) differs_round(n);
+    }
+  }
+
+  std::vector<char> was_held(now_.size(), 0), was_sprung(now_.size(), 0);
+  for (const LocalId u : before.held()) was_held[std::size_t(u)] = 1;
+  for (const auto& [u, spring] : before.springs()) was_sprung[std::size_t(u)] = 1;
+  const auto carry = [&](LocalId from, LocalId to, LocalId count) {
+    bool alike = true;
+    for (LocalId k = 0; k < count; ++k) {
+      const auto u = std::size_t(from + k), v = std::size_t(to + k);
+      now_[u] = to + k;
+      alike = alike && was_held[u] == held[v] && !was_sprung[u] &&
+              (springs.empty() || springs[v] == 0.0);
+    }
+    return alike;
+  };
+  for (LocalId n = 0; n < mesh.node_count(); ++n) {
+    if (!carry(unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2)) differs_round(n);
+  }
+  const auto forget = [&](LocalId n) {
+    for (const LocalId u : unknowns_before.of_cell(n)) now_[std::size_t(u)] = -1;
+    differs_round(n);
+  };
+  for (const LocalId n : unknowns_before.special_nodes()) {
+    const SpecialCell &was = *unknowns_before.special(n), *is = unknowns.special(n);
+    if (!is || !same_unknowns(was, *is)) {
+      forget(n);
+      continue;
+    }
+    bool alike = carry(was.extra, is->extra, 2 * (was.pieces.count - 1));
+    for (std::size_t k = 0; k < was.tips.size(); ++k)
+      alike = carry(was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
+    if (!alike) differs_round(n);
+  }
+  for (const LocalId n : unknowns.special_nodes()) {
+    if (!unknowns_before.special(n)) forget(n);
+  }
+
+  // functions that strain nothing are held zone by zone
+  std::map<int, std::vector<LocalId>> zones;
+  for (const LocalId n : unknowns.special_nodes()) {
+    for (const TipUnknowns& tip : unknowns.tips(n)) zones[tip.zone].push_back(n);
+  }
+  for (const auto& [number, nodes] : zones) {
+    if (std::all_of(nodes.begin(), nodes.end(), [&](LocalId n) { return same(n); })) continue;
+    for (const LocalId n : nodes) same_[std::size_t(n)] = 0;
+  }
+}
+
+}  // namespace cdca

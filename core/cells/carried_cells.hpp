@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a growth cycle leaves as it was on one scale.
+#pragma once
+
+#include "core/cells/cell_stiffness.hpp"
+
+#include <span>
+#include <vector>
+
+namespace cdca {
+
+/// Elements in which cracks or near-tip functions are not what they were, in order of id.
+std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vector<TipZone>& zones,
+                                       const ElementCuts& after,
+                                       const std::vector<TipZone>& zones_after);
+
+/// The elements twice as large that hold them, in order of id.
+std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements, const StructuredGrid& grid);
+
+/// The cells of a scale before and after growth: which stiffness can be taken over, and under what
+/// numbers. Faces must not have springs. Borrows the cells of before.
+class CarriedCells {
+ public:
+  /// held, springs: of the new unknowns, as for CellStiffness.
+  CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+               const CellStiffness& before, const CellUnknowns& unknowns,
+               std::vector<GlobalId> changed, const std::vector<char>& held,
+               const std::vector<double>& springs);
+
+  /// All that the stiffness of a cell depends on is what it was.
+  bool same(LocalId node) const { return same_[std::size_t(node)] != 0; }
+  /// The number of an old unknown of a cell that has the unknowns that it had, else -1. Numbers
+  /// keep their order.
+  LocalId now(LocalId unknown) const { return now_[std::size_t(unknown)]; }
+  const StiffnessRows& rows() const { return before_.rows(); }
+  const std::vector<GlobalId>& changed() const { return changed_; }
+
+ private:
+  const CellStiffness& before_;
+  std::vector<GlobalId> changed_;
+  std::vector<char> same_;  ///< by node
+  std::vector<LocalId> now_;
+};
+
+}  // namespace cdca
