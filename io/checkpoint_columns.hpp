@@ -16,6 +16,8 @@ inline constexpr auto progress_columns = [](auto&& visit) {
   visit(
       "largest_factor", "", [](auto& r) -> auto& { return r.largest_factor; });
   visit(
+      "first_factor", "", [](auto& r) -> auto& { return r.first_factor; });
+  visit(
       "joined", "", [](auto& r) -> auto& { return r.joined; });
 };
 

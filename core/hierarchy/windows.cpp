@@ -2,6 +2,7 @@
 #include "core/hierarchy/windows.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/base/first_failure.hpp"
 
 #include <algorithm>
 #include <map>
@@ -61,14 +62,14 @@ class Windows::Builder {
     windows_.colours_.resize(std::size_t(plans_.colours));
     for (std::size_t w = 0; w < plans_.windows.size(); ++w) add_window(w);
     tell_solvers();
-    for (auto& [w, draft] : drafts_) {
-      if (draft.solver != rank()) continue;
-      if (draft.kept) {
-        add_kept(w, draft);
-      } else {
-        add_solved(w, draft);
-      }
+    std::string failure;
+    try {
+      place_windows();
+    } catch (const SolveError& error) {
+      failure = error.what();
     }
+    failure = first_failure(windows_.cells_.communicator(), failure);
+    if (!failure.empty()) throw SolveError(failure);
     set_exchanges();
   }
 
@@ -194,6 +195,17 @@ class Windows::Builder {
     for (const LocalId u : share.members) place_[std::size_t(u)] = outside;
     for (const auto& [u, key] : ghosts) place_[std::size_t(u)] = outside;
     return share;
+  }
+
+  void place_windows() {
+    for (auto& [w, draft] : drafts_) {
+      if (draft.solver != rank()) continue;
+      if (draft.kept) {
+        add_kept(w, draft);
+      } else {
+        add_solved(w, draft);
+      }
+    }
   }
 
   /// Ranks that solve a window of mine, or whose cells are in a window that I solve.

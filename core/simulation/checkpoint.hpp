@@ -15,6 +15,7 @@ struct Progress {
   int cycles = 0;               ///< growth cycles done in the one under way
   double load_factor = 0.0;     ///< of the last equilibrium
   double largest_factor = 0.0;  ///< so far; critical mode
+  double first_factor = 0.0;    ///< of the first growth; critical mode
   bool joined = true;           ///< the body joined its loaded boundaries when the run began
 };
 

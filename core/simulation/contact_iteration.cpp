@@ -39,10 +39,8 @@ double balance_after(const SolverReport& solve, double wanted, double enough) {
   return solve.rounded && allowed <= worst ? allowed : 0.0;
 }
 
-}  // namespace
-
-SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
-                            Forces& given, Equilibrium& result) {
+SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_factor,
+                    Forces& given, Equilibrium& result) {
   constexpr int most = 500;
   constexpr double firmest = 1e-3, weakest = 1e-6;  // springs of loose bodies
   constexpr double farthest = 1024;                 // that these bodies go, in moves
@@ -108,6 +106,20 @@ SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, doubl
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
        << most << " iterations; smaller load steps may help.";
   throw ContactError(text.str());
+}
+
+}  // namespace
+
+SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
+                            Forces& given, Equilibrium& result) {
+  try {
+    return settle(model, solver, load_factor, given, result);
+  } catch (const ContactError&) {
+    throw;
+  } catch (const SolveError& error) {
+    // springs of faces may stand in such proportions that no solve is exact
+    throw ContactError(std::string("the contact of crack faces did not settle: ") + error.what());
+  }
 }
 
 }  // namespace cdca

@@ -8,15 +8,18 @@ namespace cdca {
 
 namespace {
 
-constexpr double exact = 5e-7;    ///< of the index
-constexpr double narrow = 1e-6;   ///< of the factor: the index jumps there
-constexpr double held = 0.3;      ///< less than this part of a proportional slope: faces are held
-constexpr double highest = 10.0;  ///< of the last factor
+constexpr double exact = 5e-7;   ///< of the index
+constexpr double narrow = 1e-6;  ///< of the factor: the index jumps there
+constexpr double held = 0.3;     ///< less than this part of a proportional slope: faces are held
+constexpr double of_last = 10.0, of_first = 100.0;  ///< the highest factor, in those of growth
 
 }  // namespace
 
-CriticalFactor::CriticalFactor(double last)
-    : start_(last > 0.0 ? last : 1.0), virgin_(!(last > 0.0)), next_(start_) {}
+CriticalFactor::CriticalFactor(double last, double first)
+    : start_(last > 0.0 ? last : 1.0),
+      highest_(std::min(of_last * last, of_first * first)),
+      virgin_(!(last > 0.0)),
+      next_(start_) {}
 
 void CriticalFactor::end(bool grows) {
   ended_ = true;
@@ -39,12 +42,12 @@ void CriticalFactor::tell(double index) {
   if (short_of_ && beyond_) {
     const double width = std::abs(beyond_->factor - short_of_->factor);
     if (width > narrow * now.factor) {
-      next_ = between();
+      next_ = between(now);
     } else {
       end_at(beyond_->factor, true);
     }
   } else if (index < 1.0) {
-    const bool enough = !virgin_ && now.factor >= highest * start_;
+    const bool enough = !virgin_ && now.factor >= highest_;
     enough ? end_at(start_, false) : void(next_ = higher(now));
   } else {
     const double slope = (index - before_.index) / (now.factor - before_.factor);
@@ -70,10 +73,13 @@ double CriticalFactor::lower(const Trial& now) const {
   return now.factor - std::clamp(step, 1e-9 * now.factor, 0.9 * now.factor);
 }
 
-double CriticalFactor::between() {
+double CriticalFactor::between(const Trial& now) {
   const Trial &a = *short_of_, &b = *beyond_;
-  // secants settle smooth stretches, halving jumps
-  const double share = tried_ % 3 == 0 ? 0.5 : (1.0 - a.index) / (b.index - a.index);
+  // secants settle smooth stretches; where one has not got nearer, there may be a jump
+  constexpr double nearer = 0.25;
+  const bool got_nearer = std::abs(now.index - 1.0) < nearer * std::abs(before_.index - 1.0);
+  halved_ = !halved_ && !got_nearer;
+  const double share = halved_ ? 0.5 : (1.0 - a.index) / (b.index - a.index);
   return a.factor + std::clamp(share, 1e-3, 1.0 - 1e-3) * (b.factor - a.factor);
 }
 

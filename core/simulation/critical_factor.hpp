@@ -15,9 +15,9 @@ namespace cdca {
 /// grows under the load that is there, with an index above 1.
 class CriticalFactor {
  public:
-  /// last: factor of the last growth; 0 before any, when the index is proportional to the load or
-  /// nearly so.
-  explicit CriticalFactor(double last);
+  /// last, first: factors of the last and of the first growth; 0 before any, when the index is
+  /// proportional to the load or nearly so.
+  CriticalFactor(double last, double first);
 
   /// The factor to try.
   double next() const { return next_; }
@@ -26,7 +26,8 @@ class CriticalFactor {
 
   /// The last factor that was tried is the answer.
   bool ended() const { return ended_; }
-  /// With it a tip grows. Otherwise none does, not even under ten times the last load.
+  /// With it a tip grows. Otherwise none does, not even under ten times the last load, or a hundred
+  /// times that of the first growth.
   bool grows() const { return grows_; }
 
  private:
@@ -36,17 +37,19 @@ class CriticalFactor {
   };
   double higher(const Trial& now) const;
   double lower(const Trial& now) const;
-  double between();
+  double between(const Trial& now);
   /// One more trial, there, whatever it shows.
   void end_at(double factor, bool grows);
   void end(bool grows);
 
   double start_;
-  bool virgin_;  ///< nothing has grown yet
+  double highest_;  ///< to try
+  bool virgin_;     ///< nothing has grown yet
   double next_;
   Trial before_;  ///< no load, no index, to begin with
   std::optional<Trial> short_of_, beyond_;
   int tried_ = 0;
+  bool halved_ = true;  ///< no secant since two trials lay on both sides
   bool last_trial_ = false;
   bool ended_ = false;
   bool grows_ = false;

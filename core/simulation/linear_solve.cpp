@@ -12,7 +12,8 @@ namespace cdca {
 namespace {
 
 void require_convergence(const SolverReport& report, const SolverSpec& spec, double load_factor) {
-  if (report.converged) return;
+  // one that is as exact as the case asks for has not failed, though more may have been wanted
+  if (report.converged || report.residual <= spec.tolerance) return;
   std::ostringstream text;
   text << "equilibrium at load factor " << load_factor << " was not reached: after "
        << report.iterations << " iterations the relative residual is " << report.residual

@@ -154,13 +154,13 @@ CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
   return found;
 }
 
-/// last: factor of the last growth, or 0. Every trial begins from the faces as they are.
+/// Every trial begins from the faces as they are.
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, Recorder& recorder,
-                                   double last) {
-  constexpr int most = 50;
+                                   const Progress& at) {
+  constexpr int most = 100;
   const Model::ContactMemory memory = model.contact_memory();
-  CriticalFactor search(last);
+  CriticalFactor search(at.load_factor, at.first_factor);
   CriticalState found;
   for (int round = 0; round < most; ++round) {
     if (round > 0) {
@@ -253,7 +253,7 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
     CriticalState now;
     if (!separated) {
       now = linear ? scaled_to_critical(model, *solver, criterion, recorder)
-                   : searched_to_critical(model, *solver, criterion, recorder, at.load_factor);
+                   : searched_to_critical(model, *solver, criterion, recorder, at);
       separated = at.joined && !model.joins_loaded_boundaries();
     }
     note_fragments(model, event, 0);
@@ -269,6 +269,7 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
       recorder.set_status("completed", "no load of this kind opens a tip: nothing grows any more.");
     const double factor = now.factor;
     if (now.grows) largest = std::max(largest, factor);
+    if (now.grows && at.first_factor == 0.0) at.first_factor = factor;
     StepResult result{event, factor, 1, false};
     result.last = !now.grows || event == spec.loading.max_events ||
                   factor < spec.loading.min_factor * largest;

@@ -16,8 +16,8 @@ struct Found {
   bool grows = false;
 };
 
-Found found(double last, const std::function<double(double)>& index) {
-  CriticalFactor search(last);
+Found found(double last, const std::function<double(double)>& index, double first = 0.0) {
+  CriticalFactor search(last, first > 0.0 ? first : last);
   Found result;
   while (!search.ended() && result.trials < 60) {
     result.factor = search.next();
@@ -75,6 +75,23 @@ TEST(CriticalFactor, GivesUpWhereNothingOpensATip) {
   const Found f = found(3.0, [](double s) { return 1 / (1 + s); });
   EXPECT_FALSE(f.grows);
   EXPECT_EQ(f.factor, 3.0);
+}
+
+TEST(CriticalFactor, GivesUpAtAHundredTimesTheFirst) {
+  const auto index = [](double s) { return s < 500 ? 0.5 : 1.5; };
+  EXPECT_TRUE(found(60.0, index, 6.0).grows);
+  EXPECT_FALSE(found(60.0, index, 4.0).grows);
+}
+
+/// One side is far beyond: secants alone would creep up to the jump from the other.
+TEST(CriticalFactor, FindsAJumpBetweenUnequalSides) {
+  for (const double beyond : {1.001, 7.5, 1e4}) {
+    const Found f = found(5.0, [=](double s) { return s < 17.3 ? 0.88 : beyond; });
+    EXPECT_TRUE(f.grows);
+    EXPECT_GE(f.factor, 17.3);
+    EXPECT_LT(f.factor, 17.3 + 5e-5);
+    EXPECT_LE(f.trials, 55) << beyond;
+  }
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ inline CellFields sample_cells(std::int64_t first, std::int64_t last) {
 
 inline Checkpoint sample_checkpoint() {
   Checkpoint c;
-  c.progress = {2, 3, 0.75, 0.875, false};
+  c.progress = {2, 3, 0.75, 0.875, 0.5, false};
   const Summary summary = sample_summary();
   c.story = {summary.steps, summary.tips, {summary.tips[1]}, summary.performance, 17};
   c.story.steps[1].external_work = 1.0 / 3.0;
@@ -91,9 +91,9 @@ inline void expect_same(const RunStory& a, const RunStory& b) {
 /// All but the cells.
 inline void expect_same(const Checkpoint& a, const Checkpoint& b) {
   EXPECT_EQ(std::tie(a.progress.steps, a.progress.cycles, a.progress.load_factor,
-                     a.progress.largest_factor, a.progress.joined),
+                     a.progress.largest_factor, a.progress.first_factor, a.progress.joined),
             std::tie(b.progress.steps, b.progress.cycles, b.progress.load_factor,
-                     b.progress.largest_factor, b.progress.joined));
+                     b.progress.largest_factor, b.progress.first_factor, b.progress.joined));
   expect_same(a.story, b.story);
   EXPECT_EQ(std::tie(a.energy.external_work, a.energy.strain_energy, a.energy.potential,
                      a.energy.support_potential, a.energy.factor),
