@@ -39,13 +39,14 @@ std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, 
 CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
                            const std::vector<TipZone>& zones, Communicator& communicator)
     : owned_nodes_(mesh.owned_nodes()) {
-  find_own(mesh, elements, zones);
-  tell_ghosts(mesh, communicator);
-  number(mesh);
+  Cells found;
+  find_own(mesh, elements, zones, found);
+  tell_ghosts(mesh, communicator, found);
+  number(mesh, std::move(found));
 }
 
 void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
-                            const std::vector<TipZone>& zones) {
+                            const std::vector<TipZone>& zones, Cells& found) {
   std::map<LocalId, std::vector<TipUnknowns>> candidates;
   for (const GlobalId id : elements.touched_elements()) {
     const GridIndex e = mesh.grid().element_index(id);
@@ -63,18 +64,18 @@ void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
     SpecialCell cell;
     cell.pieces = pieces_of(elements, mesh.node(n));
     cell.tips = std::move(tips);
-    if (cell.pieces.count > 1 || !cell.tips.empty()) special_.emplace(n, std::move(cell));
+    if (cell.pieces.count > 1 || !cell.tips.empty()) found.emplace(n, std::move(cell));
   }
 }
 
-void CellUnknowns::tell_ghosts(const LocalMesh& mesh, Communicator& communicator) {
+void CellUnknowns::tell_ghosts(const LocalMesh& mesh, Communicator& communicator, Cells& found) {
   std::vector<int> ranks;
   std::vector<Bytes> outgoing;
   for (const SharedNodes& shared : mesh.shared()) {
     std::vector<std::int64_t> cells;
     for (const LocalId n : shared.owned) {
-      const auto it = special_.find(n);
-      if (it != special_.end()) write_cell(mesh.node_id(n), it->second, cells);
+      const auto it = found.find(n);
+      if (it != found.end()) write_cell(mesh.node_id(n), it->second, cells);
     }
     ranks.push_back(shared.rank);
     outgoing.emplace_back();
@@ -84,18 +85,21 @@ void CellUnknowns::tell_ghosts(const LocalMesh& mesh, Communicator& communicator
     const auto cells = unpack<std::int64_t>(bytes);
     for (std::size_t at = 0; at < cells.size();) {
       auto [id, cell] = read_cell(cells, at);
-      special_.emplace(mesh.find_node(mesh.grid().node_index(id)), std::move(cell));
+      found.emplace(mesh.find_node(mesh.grid().node_index(id)), std::move(cell));
     }
   }
 }
 
-void CellUnknowns::number(const LocalMesh& mesh) {
-  std::vector<LocalId>& nodes = special_nodes_;
-  for (const auto& [n, cell] : special_) nodes.push_back(n);
-  std::sort(nodes.begin(), nodes.end());
+void CellUnknowns::number(const LocalMesh& mesh, Cells found) {
+  place_.assign(std::size_t(mesh.node_count()), -1);
+  for (auto& [n, cell] : found) {
+    place_[std::size_t(n)] = LocalId(cells_.size());
+    special_nodes_.push_back(n);
+    cells_.push_back(std::move(cell));
+  }
+  // own nodes come first, ghosts after them
   LocalId next = 2 * owned_nodes_;
-  const auto place = [&](LocalId n) {
-    SpecialCell& cell = special_.at(n);
+  const auto number_extras = [&](SpecialCell& cell) {
     cell.extra = next;
     next += 2 * (cell.pieces.count - 1);
     for (TipUnknowns& tip : cell.tips) {
@@ -103,24 +107,16 @@ void CellUnknowns::number(const LocalMesh& mesh) {
       next += tip.count;
     }
   };
-  for (const LocalId n : nodes) {
-    if (mesh.owns(n)) place(n);
-  }
+  std::size_t k = 0;
+  for (; k < cells_.size() && mesh.owns(special_nodes_[k]); ++k) number_extras(cells_[k]);
   owned_ = ghost_start_ = next;
   next += 2 * (mesh.node_count() - owned_nodes_);
-  for (const LocalId n : nodes) {
-    if (!mesh.owns(n)) place(n);
-  }
+  for (; k < cells_.size(); ++k) number_extras(cells_[k]);
   count_ = next;
 }
 
-const SpecialCell* CellUnknowns::special(LocalId node) const {
-  const auto it = special_.find(node);
-  return it == special_.end() ? nullptr : &it->second;
-}
-
 LocalId CellUnknowns::of_piece(LocalId node, int piece) const {
-  if (piece > 0) return special_.at(node).extra + 2 * (piece - 1);
+  if (piece > 0) return special(node)->extra + 2 * (piece - 1);
   return node < owned_nodes_ ? 2 * node : ghost_start_ + 2 * (node - owned_nodes_);
 }
 

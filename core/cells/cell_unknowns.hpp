@@ -8,8 +8,8 @@
 #include "core/cells/tip_zone.hpp"
 #include "core/mesh/local_mesh.hpp"
 
+#include <map>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace cdca {
@@ -43,7 +43,10 @@ class CellUnknowns {
   LocalId count() const { return count_; }
 
   /// Null for a plain cell.
-  const SpecialCell* special(LocalId node) const;
+  const SpecialCell* special(LocalId node) const {
+    const LocalId at = place_[std::size_t(node)];
+    return at < 0 ? nullptr : &cells_[std::size_t(at)];
+  }
   /// All cells that are not plain, ghosts included, ascending.
   const std::vector<LocalId>& special_nodes() const { return special_nodes_; }
   /// First unknown (x; y follows) of a piece.
@@ -58,17 +61,19 @@ class CellUnknowns {
   std::vector<SharedUnknowns> shared(const LocalMesh& mesh) const;
 
  private:
+  using Cells = std::map<LocalId, SpecialCell>;
   void find_own(const LocalMesh& mesh, const ElementParts& elements,
-                const std::vector<TipZone>& zones);
-  void tell_ghosts(const LocalMesh& mesh, Communicator& communicator);
-  void number(const LocalMesh& mesh);
+                const std::vector<TipZone>& zones, Cells& found);
+  void tell_ghosts(const LocalMesh& mesh, Communicator& communicator, Cells& found);
+  void number(const LocalMesh& mesh, Cells found);
 
   LocalId owned_nodes_ = 0;
   LocalId ghost_start_ = 0;  ///< first unknown of the first ghost
   LocalId owned_ = 0;
   LocalId count_ = 0;
-  std::unordered_map<LocalId, SpecialCell> special_;
   std::vector<LocalId> special_nodes_;
+  std::vector<SpecialCell> cells_;  ///< in the same order
+  std::vector<LocalId> place_;      ///< of every node among them, or -1
 };
 
 }  // namespace cdca

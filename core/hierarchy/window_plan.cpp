@@ -31,15 +31,40 @@ bool is_wide(const Box& box) {
   return std::max(box.high.i - box.low.i, box.high.j - box.low.j) > 2;
 }
 
-/// Adds the nodes within `reach` of a node that lie in the box.
-void add_round(const StructuredGrid& grid, GridIndex n, int reach, const Box& box,
-               std::vector<GlobalId>& nodes) {
-  for (int j = std::max(n.j - reach, box.low.j); j <= std::min(n.j + reach, box.high.j); ++j) {
-    for (int i = std::max(n.i - reach, box.low.i); i <= std::min(n.i + reach, box.high.i); ++i) {
-      nodes.push_back(grid.node({i, j}));
+/// Nodes of a box, marked one by one.
+class MarkedNodes {
+ public:
+  explicit MarkedNodes(const Box& box)
+      : box_(box),
+        width_(box.high.i - box.low.i + 1),
+        marks_(std::size_t(width_ * (box.high.j - box.low.j + 1)), 0) {}
+
+  /// Marks those within `reach` of a node.
+  void add_round(GridIndex n, int reach) {
+    const int low = std::max(n.i - reach, box_.low.i), high = std::min(n.i + reach, box_.high.i);
+    for (int j = std::max(n.j - reach, box_.low.j); j <= std::min(n.j + reach, box_.high.j); ++j) {
+      for (int i = low; i <= high; ++i) marks_[place({i, j})] = 1;
     }
   }
-}
+  /// Ascending.
+  std::vector<GlobalId> ids(const StructuredGrid& grid) const {
+    std::vector<GlobalId> found;
+    for (int j = box_.low.j; j <= box_.high.j; ++j) {
+      for (int i = box_.low.i; i <= box_.high.i; ++i) {
+        if (marks_[place({i, j})]) found.push_back(grid.node({i, j}));
+      }
+    }
+    return found;
+  }
+
+ private:
+  std::size_t place(GridIndex n) const {
+    return std::size_t((n.j - box_.low.j) * width_ + n.i - box_.low.i);
+  }
+  Box box_;
+  int width_;
+  std::vector<char> marks_;
+};
 
 void sort_once(std::vector<GlobalId>& ids) {
   std::sort(ids.begin(), ids.end());
@@ -71,14 +96,15 @@ void add_tiles(const StructuredGrid& grid, const std::vector<GlobalId>& seeds,
                    std::min(grid.ny(), (tj + 1) * shape.tile - 1 + shape.overlap)}};
     WindowPlan window;
     window.colour = period * (tj % period) + ti % period;
+    MarkedNodes marked(box);
     for (int nj = tj - around; nj <= tj + around; ++nj) {
       for (int ni = ti - around; ni <= ti + around; ++ni) {
         const auto near = tiles.find({nj, ni});
         if (near == tiles.end()) continue;
-        for (const GridIndex n : near->second) add_round(grid, n, shape.reach, box, window.nodes);
+        for (const GridIndex n : near->second) marked.add_round(n, shape.reach);
       }
     }
-    sort_once(window.nodes);
+    window.nodes = marked.ids(grid);
     plans.windows.push_back(std::move(window));
   }
 }
@@ -89,14 +115,15 @@ void add_zones(const StructuredGrid& grid, const std::vector<TipZone>& zones, in
                std::vector<GlobalId>& seeds, WindowPlans& plans) {
   std::vector<std::pair<Box, int>> placed;
   std::set<GlobalId> inside;
-  const Box everything{{0, 0}, {grid.nx(), grid.ny()}};
   for (const TipZone& zone : zones) {
     const Box box = box_of(grid, zone.nodes);
     if (!is_wide(box)) continue;
     WindowPlan window;
-    for (const GlobalId id : zone.nodes)
-      add_round(grid, grid.node_index(id), 1, everything, window.nodes);
-    sort_once(window.nodes);
+    MarkedNodes marked(
+        {{std::max(0, box.low.i - 1), std::max(0, box.low.j - 1)},
+         {std::min(grid.nx(), box.high.i + 1), std::min(grid.ny(), box.high.j + 1)}});
+    for (const GlobalId id : zone.nodes) marked.add_round(grid.node_index(id), 1);
+    window.nodes = marked.ids(grid);
     inside.insert(zone.nodes.begin(), zone.nodes.end());
     window.colour = first_colour;
     const auto clashes = [&](const auto& other) {

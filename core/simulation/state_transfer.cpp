@@ -42,11 +42,10 @@ void carry_state(const BasisContext& before, std::span<const double> old_state,
     for (LocalId k = 0; k < count; ++k)
       state[std::size_t(to + k)] = old_state[std::size_t(from + k)];
   };
-  for (LocalId n = 0; n < after.mesh.owned_nodes(); ++n) {
-    if (!after.unknowns.special(n)) {
-      copy(before.unknowns.of_piece(n, 0), after.unknowns.of_piece(n, 0), 2);
-      continue;
-    }
+  // most cells are plain, and have their two unknowns at the same place
+  copy(0, 0, 2 * after.mesh.owned_nodes());
+  for (const LocalId n : after.unknowns.special_nodes()) {
+    if (!after.mesh.owns(n)) break;
     for (int p = 0; p < after.unknowns.pieces(n); ++p) {
       const int old = old_piece_of(before, after, n, p);
       copy(before.unknowns.of_piece(n, old), after.unknowns.of_piece(n, p), 2);
