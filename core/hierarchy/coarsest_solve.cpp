@@ -3,45 +3,30 @@
 
 #include "core/base/errors.hpp"
 
-#include <Eigen/OrderingMethods>
-
 #include <algorithm>
 
 namespace cdca {
 
 namespace {
 
-struct Entry {
-  std::int32_t row;
-  std::int32_t column;
-  double value;
-};
-
 /// The entries of all ranks, on every rank, in order of rank.
-std::vector<Entry> entries_of_all(Communicator& communicator, std::vector<Entry> mine) {
+StiffnessEntries entries_of_all(Communicator& communicator, StiffnessEntries mine) {
   if (communicator.size() == 1) return mine;
   Bytes bytes, all;
-  pack(bytes, std::span<const Entry>(mine));
+  pack(bytes, std::span<const StiffnessEntries::value_type>(mine));
   for (const Bytes& part : communicator.gather(bytes))
     all.insert(all.end(), part.begin(), part.end());
   communicator.broadcast(all);
-  return unpack<Entry>(all);
+  return unpack<StiffnessEntries::value_type>(all);
 }
 
 constexpr double outgrown = 1.2;  ///< a factor so many times larger is worth a new order
 
-void update(EliminationOrder& order, Eigen::Index size, const std::vector<Entry>& entries) {
-  if (order.place.size() == size && double(order.entries_now) <= outgrown * double(order.entries))
+void update(EliminationOrder& order, std::size_t size, const StiffnessEntries& entries) {
+  if (order.place.size() == Eigen::Index(size) &&
+      double(order.entries_now) <= outgrown * double(order.entries))
     return;
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(entries.size());
-  for (const Entry& e : entries) triplets.emplace_back(e.row, e.column, 1.0);
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
-  Permutation eliminated;
-  Eigen::AMDOrdering<int>()(matrix.selfadjointView<Eigen::Lower>(), eliminated);
-  order.place = Permutation(eliminated.inverse()).indices();
+  order.place = elimination_order(size, entries);
   order.entries = 0;
 }
 
@@ -63,10 +48,10 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, EliminationOrder& order
   for (const LocalId u : cells.held()) number[std::size_t(u)] = -1.0;
   cells.halo().copy_state(number);
 
-  std::vector<Entry> entries;
+  StiffnessEntries entries;
   for (const LocalId u : cells.held()) {
-    const auto place = std::int32_t(first_ + std::size_t(u));
-    entries.push_back({place, place, 1.0});
+    const auto place = int(first_ + std::size_t(u));
+    entries.emplace_back(place, place, 1.0);
   }
   const StiffnessRows& rows = cells.rows();
   for (std::size_t r = 0; r < rows.unknown.size(); ++r) {
@@ -75,22 +60,13 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, EliminationOrder& order
     for (std::size_t k = rows.start[r]; k < rows.start[r + 1]; ++k) {
       const double column = number[std::size_t(rows.column[k])];
       if (column >= 0 && column <= number[u])
-        entries.push_back({std::int32_t(number[u]), std::int32_t(column), rows.value[k]});
+        entries.emplace_back(int(number[u]), int(column), rows.value[k]);
     }
   }
   entries = entries_of_all(communicator, std::move(entries));
-  const auto size = Eigen::Index(total_);
-  update(order, size, entries);
+  update(order, total_, entries);
   place_ = order.place;
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(entries.size());
-  for (const Entry& e : entries) {
-    const auto [low, high] = std::minmax(place_[e.row], place_[e.column]);
-    triplets.emplace_back(high, low, e.value);
-  }
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  factor_.compute(matrix);
+  factor_.compute(in_order(place_, entries, false));
   if (factor_.info() != Eigen::Success) {
     throw SolveError("the stiffness of the coarsest cells could not be factored");
   }

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "core/cells/cell_stiffness.hpp"
-
-#include <Eigen/SparseCholesky>
+#include "core/hierarchy/elimination_order.hpp"
 
 #include <memory>
 #include <span>
@@ -32,8 +31,7 @@ class CoarsestSolve {
   std::size_t first_ = 0;  ///< of own unknowns among those of all ranks
   std::size_t total_ = 0;
   Eigen::VectorXi place_;  ///< of every unknown in the factor
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
-      factor_;
+  OrderedFactor factor_;
 };
 
 }  // namespace cdca

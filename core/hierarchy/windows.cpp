@@ -10,33 +10,26 @@
 
 namespace cdca {
 
-namespace {
-
-std::uint64_t signature_of(std::size_t size, const WindowFactors::Entries& entries) {
+WindowFactors::Found WindowFactors::of(std::size_t size, const StiffnessEntries& entries) {
   Signature s;
   s.add_bits(size);
-  for (const auto& e : entries) {
-    s.add_bits((std::uint64_t(e.row()) << 32) | std::uint64_t(e.col()));
-    s.add(e.value());
-  }
-  return s.value();
-}
-
-}  // namespace
-
-WindowFactors::Found WindowFactors::of(std::size_t size, const Entries& entries) {
-  const std::uint64_t signature = signature_of(size, entries);
-  const WindowFactor& factor = factors_.of(signature, [&] {
-    const auto unknowns = Eigen::Index(size);
-    Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    auto made = std::make_unique<WindowFactor>(matrix);
-    if (made->info() != Eigen::Success) {
+  for (const auto& e : entries)
+    s.add_bits((std::uint64_t(std::uint32_t(e.row())) << 32) | std::uint32_t(e.col()));
+  const std::uint64_t places = s.value();
+  for (const auto& e : entries) s.add(e.value());
+  const WindowFactor& factor = factors_.of(s.value(), [&] {
+    const Eigen::VectorXi& place = orders_.of(places, [&] {
+      return std::make_unique<Eigen::VectorXi>(elimination_order(size, entries));
+    });
+    auto made = std::make_unique<WindowFactor>();
+    made->place = place;
+    made->factor.compute(in_order(place, entries, true));
+    if (made->factor.info() != Eigen::Success) {
       throw SolveError("the stiffness of cells near a crack could not be factored");
     }
     return made;
   });
-  return {&factor, signature};
+  return {&factor, s.value()};
 }
 
 /// Finds shares, collects the stiffness of every window on the rank that solves it, and lays down
@@ -287,7 +280,7 @@ class Windows::Builder {
       name(c, int(solved.size));
       solved.size += c.keys.size();
     }
-    WindowFactors::Entries entries;
+    StiffnessEntries entries;
     int first = 0;
     const auto add = [&](const Contribution& c) {
       for (const Entry& e : c.entries) {
@@ -398,13 +391,16 @@ void Windows::move_colour(const Colour& colour, std::span<double> forces,
   for (const Solved& window : colour.solved) {
     if (!window.found.factor) continue;
     const Share& share = shares_[window.share];
+    const Eigen::VectorXi& place = window.found.factor->place;
     force.resize(Eigen::Index(window.size));
     Eigen::Index at = 0;
-    for (const LocalId u : share.members) force[at++] = forces[std::size_t(u)];
+    for (const LocalId u : share.members) force[place[at++]] = forces[std::size_t(u)];
     for (const auto& [start, count] : window.remote) {
-      for (std::size_t k = 0; k < count; ++k) force[at++] = received[start + k];
+      for (std::size_t k = 0; k < count; ++k) force[place[at++]] = received[start + k];
     }
-    move = window.found.factor->solve(force);
+    force = window.found.factor->factor.solve(force).eval();
+    move.resize(force.size());
+    for (Eigen::Index k = 0; k < place.size(); ++k) move[k] = force[place[k]];
     apply(share, move.data(), forces, moves);
     at = Eigen::Index(share.members.size());
     for (const auto& [start, count] : window.remote) {

@@ -4,36 +4,41 @@
 
 #include "core/base/content_cache.hpp"
 #include "core/cells/carried_cells.hpp"
+#include "core/hierarchy/elimination_order.hpp"
 #include "core/hierarchy/window_plan.hpp"
-
-#include <Eigen/SparseCholesky>
 
 #include <map>
 #include <memory>
 
 namespace cdca {
 
-/// The factor of a window's stiffness.
-using WindowFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+/// The factor of a window's stiffness, and where in it every unknown of the window stands.
+struct WindowFactor {
+  Eigen::VectorXi place;
+  OrderedFactor factor;
+};
 
 /// Factors kept from one growth cycle to the next: a window whose stiffness is bit for bit the same
-/// needs no new one.
+/// needs no new one, and one with entries at the same places no new order of elimination.
 class WindowFactors {
  public:
-  void begin_cycle() { factors_.begin_cycle(); }
-  /// Entries of the stiffness of a window of so many unknowns.
-  using Entries = std::vector<Eigen::Triplet<double>>;
+  void begin_cycle() {
+    factors_.begin_cycle();
+    orders_.begin_cycle();
+  }
   struct Found {
     const WindowFactor* factor = nullptr;
     std::uint64_t signature = 0;
   };
-  Found of(std::size_t size, const Entries& entries);
+  /// entries: both triangles of the stiffness of a window of so many unknowns.
+  Found of(std::size_t size, const StiffnessEntries& entries);
   void keep(const Found& found) { factors_.keep(found.signature); }
   std::int64_t made() const { return factors_.made(); }
   std::int64_t reused() const { return factors_.reused(); }
 
  private:
   ContentCache<WindowFactor> factors_;
+  ContentCache<Eigen::VectorXi> orders_;
 };
 
 /// The windows of one scale. Each is solved by one rank, also where it holds cells of others: these
