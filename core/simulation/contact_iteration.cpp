@@ -31,12 +31,12 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
 
 /// How well tractions can be balanced after a solve, as a part of the largest: `enough` where it
 /// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that;
-/// nothing where it was not exact.
+/// less than nothing where it was not exact.
 double balance_after(const SolverReport& solve, double wanted, double enough) {
   constexpr double worst = 1e-5;
   if (solve.residual <= wanted) return enough;
   const double allowed = enough * solve.residual / wanted;
-  return solve.rounded && allowed <= worst ? allowed : 0.0;
+  return solve.rounded && allowed <= worst ? allowed : -1.0;
 }
 
 SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_factor,

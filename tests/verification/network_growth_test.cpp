@@ -168,5 +168,15 @@ INSTANTIATE_TEST_SUITE_P(Contact, SlowNetworkGrowth,
                                             ::testing::Values(Loading::tension_with_contact,
                                                               Loading::compression)));
 
+/// However quietly the faces come to rest: what is taken for equilibrium is one of forces, too.
+TEST(ContactOfNetworks, WhatIsTakenIsExact) {
+  for (const unsigned seed : {3U, 96U}) {
+    const CaseSpec spec = network_of_seed(seed, Loading::compression);
+    const auto model = built(spec);
+    const Equilibrium e = find_equilibrium(*model, *make_solver(*model), 0.2);
+    EXPECT_LE(e.solver.residual, spec.solver.tolerance) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace cdca::testing
