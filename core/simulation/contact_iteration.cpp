@@ -56,7 +56,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   const auto here = solves.gaps();
   if (contact.respond(here, contact.limits_at(here)).springs) solves.turn_springs(firmest);
   double weak = firmest, unbalanced = 1.0;
-  bool settled = false;
+  bool settled = false, begin_anew = false;
   int cut_short = 0;
   for (int& k = result.contact_iterations = 1; k <= most; ++k) {
     // while many faces still change their states it is of no use to be exact
@@ -90,13 +90,16 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     if (jammed && FaceBarrier::suits(contact)) {
       const Model::ContactMemory memory = model.contact_memory();
       const std::vector<double> state = model.state();
-      const auto balance = solves.balance_faces(enough);
+      const auto balance = solves.balance_faces(enough, begin_anew ? 0.0 : nearly);
+      begin_anew = true;
       k += balance.steps;
       result.contact_unbalanced = balance.unbalanced;
       result.linear_solves = solves.count();
       if (balance.found) return solves.slowest();
-      model.remember(memory);
-      model.state() = state;
+      if (balance.unbalanced > nearly) {
+        model.remember(memory);
+        model.state() = state;
+      }
       solves.build_stiffness(weak);
       unbalanced = nearly;
       cut_short = 0;

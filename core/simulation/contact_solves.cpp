@@ -66,7 +66,7 @@ void ContactSolves::turn_limits(double agreed, double part) {
   }
 }
 
-ContactSolves::Balance ContactSolves::balance_faces(double enough) {
+ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) {
   constexpr int most = 150;
   constexpr double loosest = 1e-9;  // weak springs: the other faces hold loose bodies meanwhile
   constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
@@ -77,6 +77,8 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough) {
                     gaps(), model_.grid().smallest_side() / model_.spec().material.young);
   Balance balance;
   double left = 1.0;  // of the forces that are out of balance: steps do not go all the way
+  std::vector<double> nearest = state;
+  double least = 1.0;
   bool built = false;
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
@@ -103,9 +105,18 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough) {
     }
     left = faces.began_anew() ? 1.0 : (1 - share) * left + share * slowest_.residual;
     balance.unbalanced = faces.unbalanced(gaps());
+    if (const double off = std::max(balance.unbalanced, left); off < least) {
+      least = off;
+      nearest = state;
+    }
     balance.found = std::max(balance.unbalanced, left) <= enough && held_back(move) <= enough;
+    if (faces.began_anew() && least <= near) break;
   }
   given_.anchor.clear();
+  if (!balance.found) {
+    state = nearest;
+    balance.unbalanced = least;
+  }
   const auto here = gaps();
   contact.respond(here, contact.limits_at(here));
   build_stiffness(loosest);

@@ -23,8 +23,9 @@ class ContactSolves {
     int steps = 0;            ///< each with a stiffness of its own
   };
   /// Brings all faces into balance at once (face_barrier.hpp), to this part of the largest
-  /// traction, and leaves springs, states and limits of that balance.
-  Balance balance_faces(double enough);
+  /// traction, and leaves springs, states and limits of that balance, or of where they were nearest
+  /// to it. Does not begin anew where it has come as near as this.
+  Balance balance_faces(double enough, double near);
 
   /// Brings the stiffness up to date. Where one factor moves all cells, what has changed since it
   /// was built lies on top of it for as long as the solves are not much slower for that. weak: of
