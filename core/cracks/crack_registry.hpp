@@ -53,8 +53,8 @@ class CrackRegistry {
   void add(std::string name, std::vector<Vec2> points);
   /// Finds where initial cracks end on the rim, on the ends or on the faces of cracks, their own
   /// included, and where they cross (4.1-4.2 at load step 0). Ends nearer than `touch` (m) are
-  /// moved onto what they touch.
-  void resolve_initial_meetings(const Rectangle& body, double touch);
+  /// moved onto what they touch; onto the rim those nearer than `rim`, if that is more (m).
+  void resolve_initial_meetings(const Rectangle& body, double touch, double rim = 0.0);
 
   /// Lengthens a crack at one end by a straight segment to `to` (m), which appears in load step
   /// `step`; the end takes the given state. Ends that meet something write an event. A step to

@@ -42,8 +42,8 @@ bool ends_at(const Crack& crack, const Vec2& x, double touch) {
 /// The ends of initial cracks, one after the other.
 class InitialMeetings {
  public:
-  InitialMeetings(CrackRegistry& registry, const Rectangle& body, double touch)
-      : registry_(registry), body_(body), touch_(touch) {}
+  InitialMeetings(CrackRegistry& registry, const Rectangle& body, double touch, double rim)
+      : registry_(registry), body_(body), touch_(touch), rim_(std::max(touch, rim)) {}
 
   void find_ends() {
     // moving an end moves the face behind it, which another tip may touch then
@@ -102,7 +102,7 @@ class InitialMeetings {
 
   bool ends_on_rim(int c, int end) {
     const Vec2 rim = nearest_rim_point(body_, place(c, end));
-    return near(rim, place(c, end)) && end_here(c, end, rim, TipState::boundary, -1);
+    return (rim - place(c, end)).norm() <= rim_ && end_here(c, end, rim, TipState::boundary, -1);
   }
 
   /// Where another crack has ended on a face.
@@ -154,12 +154,13 @@ class InitialMeetings {
   CrackRegistry& registry_;
   Rectangle body_;
   double touch_;
+  double rim_;
 };
 
 }  // namespace
 
-void CrackRegistry::resolve_initial_meetings(const Rectangle& body, double touch) {
-  InitialMeetings meetings(*this, body, touch);
+void CrackRegistry::resolve_initial_meetings(const Rectangle& body, double touch, double rim) {
+  InitialMeetings meetings(*this, body, touch, rim);
   meetings.find_ends();
   meetings.find_crossings();
 }

@@ -50,7 +50,9 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
 
 void Model::place_cracks() {
   for (const CrackSpec& crack : spec_.cracks) registry_.add(crack.name, crack.points);
-  registry_.resolve_initial_meetings(body(), touch_distance());
+  // the grid does not resolve a ligament thinner than a tenth of an element
+  const double thinnest = 0.1 * grid_.smallest_side();
+  registry_.resolve_initial_meetings(body(), touch_distance(), thinnest);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_));
   refuse_hidden_cracks();
   find_zones();

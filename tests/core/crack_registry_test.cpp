@@ -328,6 +328,19 @@ TEST(CrackRegistryTest, HashSeesWhatBecameOfTheEnds) {
   EXPECT_NE(open.hash(), closed.hash());
 }
 
+/// The rim may be wider than what counts as touching; cracks are not.
+TEST(CrackRegistryTest, EndsNearTheRimEndOnIt) {
+  for (const double gap : {0.05, 0.15}) {
+    CrackRegistry registry;
+    registry.add("a", {{gap, 4}, {3, 4}});
+    registry.add("b", {{3 + gap, 3}, {3 + gap, 5}});
+    registry.resolve_initial_meetings(body, tolerance, 0.1);
+    EXPECT_EQ(end_of(registry, 0, 0).state, gap < 0.1 ? TipState::boundary : TipState::active);
+    EXPECT_EQ(registry.cracks()[0].points.front().x(), gap < 0.1 ? 0.0 : gap);
+    EXPECT_EQ(end_of(registry, 0, 1).state, TipState::active);
+  }
+}
+
 CrackNetwork network(const std::vector<std::vector<Vec2>>& cracks) {
   return network_of(resolved(cracks).cracks(), body, tolerance);
 }
