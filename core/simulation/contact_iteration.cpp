@@ -69,7 +69,8 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     if (following || settled) solves.turn_limits(std::max(agreed, 0.1 * enough), part);
     const LineSearch search(model, given.external, from);
     const double pulled = solves.held_back(search.move());
-    const double share = search.find(pulled > enough ? farthest : 1.0);
+    const double share =
+        std::min(search.find(pulled > enough ? farthest : 1.0), solves.far_enough(search.move()));
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
     const bool whole = share >= 1.0;

@@ -6,7 +6,9 @@
 #include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace cdca {
 
@@ -130,6 +132,21 @@ double ContactSolves::held_back(const std::vector<double>& move) const {
   std::vector<double> weak(std::size_t(cells.count()), 0.0);
   cells.add_spring_forces(move, weak);
   return std::sqrt(cells.dot(weak, weak)) / slowest_.scale;
+}
+
+double ContactSolves::far_enough(const std::vector<double>& move) const {
+  constexpr double farthest = 1e3;  // in displacements of bodies that are held
+  std::vector<char> loose(move.size(), 0);
+  for (const auto& [u, spring] : model_.stiffness().springs()) loose[std::size_t(u)] = 1;
+  double held = 0.0, moved = 0.0;
+  for (std::size_t u = 0; u < std::size_t(model_.stiffness().owned()); ++u) {
+    double& most = loose[u] ? moved : held;
+    most = std::max(most, std::abs(loose[u] ? move[u] : model_.state()[u]));
+  }
+  std::array<double, 2> most{held, moved};
+  model_.communicator().max(std::span<double>(most));
+  return most[0] > 0.0 && most[1] > 0.0 ? farthest * most[0] / most[1]
+                                        : std::numeric_limits<double>::infinity();
 }
 
 std::vector<ContactGap> ContactSolves::gaps() const {

@@ -38,6 +38,9 @@ class ContactSolves {
   /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
   /// have gone far enough yet.
   double held_back(const std::vector<double>& move) const;
+  /// How much of a move takes loose bodies as far as they ever need to go; more would leave their
+  /// places to rounding.
+  double far_enough(const std::vector<double>& move) const;
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }
