@@ -43,6 +43,8 @@ class FaceBarrier {
   /// the widest.
   double unbalanced(const std::vector<ContactGap>& gaps) const;
 
+  double largest_pressure() const;
+
  private:
   /// Two numbers whose product goes to 0, and what the last solve makes of them.
   struct Pair {
@@ -95,7 +97,6 @@ class FaceBarrier {
   void aim(const Aim& at);
   double mean() const;
   double most() const;
-  double largest_pressure() const;
   std::vector<double> limits() const;
   void keep_limits();
   void note_product();

@@ -30,13 +30,12 @@ void set_held(const Model& model, const std::vector<double>& held, std::vector<d
 }
 
 /// How well tractions can be balanced after a solve, as a part of the largest: `enough` where it
-/// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that;
-/// less than nothing where it was not exact.
-double balance_after(const SolverReport& solve, double wanted, double enough) {
-  constexpr double worst = 1e-5;
-  if (solve.residual <= wanted) return enough;
-  const double allowed = enough * solve.residual / wanted;
-  return solve.rounded && allowed <= worst ? allowed : -1.0;
+/// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that, and
+/// no better than `rounding` lets gaps be told; less than nothing where it was not exact.
+double balance_after(const SolverReport& solve, double wanted, double enough, double rounding) {
+  if (solve.residual <= wanted) return std::max(enough, rounding);
+  const double allowed = std::max(rounding, enough * solve.residual / wanted);
+  return solve.rounded && allowed <= ContactSolves::worst_balance ? allowed : -1.0;
 }
 
 SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_factor,
@@ -69,8 +68,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     if (following || settled) solves.turn_limits(std::max(agreed, 0.1 * enough), part);
     const LineSearch search(model, given.external, from);
     const double pulled = solves.held_back(search.move());
-    const double share =
-        std::min(search.find(pulled > enough ? farthest : 1.0), solves.far_enough(search.move()));
+    const double share = search.find(pulled > enough ? farthest : 1.0);
     search.go(share, from, model.state());
     const auto gaps = search.gaps(share);
     const bool whole = share >= 1.0;
@@ -84,7 +82,8 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     result.contact_unbalanced = unbalanced;
     result.linear_solves = solves.count();
     // rounding keeps solves from being exact when loose bodies have gone far
-    const double balanced = balance_after(solves.slowest(), part * tolerance, enough);
+    const double balanced =
+        balance_after(solves.slowest(), part * tolerance, enough, solves.rounding(change.largest));
     if (share == 1.0 && unbalanced <= balanced && pulled <= enough) return solves.slowest();
     cut_short += share < short_move;
     const bool jammed = cut_short == short_moves || k == follow_at_once;

@@ -6,7 +6,6 @@
 #include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -111,7 +110,8 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
       least = off;
       nearest = state;
     }
-    balance.found = std::max(balance.unbalanced, left) <= enough && held_back(move) <= enough;
+    const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
+    balance.found = std::max(balance.unbalanced, left) <= told_apart && held_back(move) <= enough;
     if (faces.began_anew() && least <= near) break;
   }
   given_.anchor.clear();
@@ -134,19 +134,16 @@ double ContactSolves::held_back(const std::vector<double>& move) const {
   return std::sqrt(cells.dot(weak, weak)) / slowest_.scale;
 }
 
-double ContactSolves::far_enough(const std::vector<double>& move) const {
-  constexpr double farthest = 1e3;  // in displacements of bodies that are held
-  std::vector<char> loose(move.size(), 0);
-  for (const auto& [u, spring] : model_.stiffness().springs()) loose[std::size_t(u)] = 1;
-  double held = 0.0, moved = 0.0;
-  for (std::size_t u = 0; u < std::size_t(model_.stiffness().owned()); ++u) {
-    double& most = loose[u] ? moved : held;
-    most = std::max(most, std::abs(loose[u] ? move[u] : model_.state()[u]));
-  }
-  std::array<double, 2> most{held, moved};
-  model_.communicator().max(std::span<double>(most));
-  return most[0] > 0.0 && most[1] > 0.0 ? farthest * most[0] / most[1]
-                                        : std::numeric_limits<double>::infinity();
+double ContactSolves::rounding(double largest) const {
+  if (!model_.has_weak_springs() || !(largest > 0.0)) return 0.0;
+  double stiffest = 0.0, farthest = 0.0;
+  for (const ContactPatch& p : model_.contact().patches())
+    stiffest = std::max(stiffest, model_.contact().law_of(p).normal_stiffness);
+  for (const double u : model_.state()) farthest = std::max(farthest, std::abs(u));
+  farthest = model_.communicator().max(farthest);
+  constexpr double units = 8;  // in the last place, that gaps may be off
+  const double off = units * std::numeric_limits<double>::epsilon() * farthest * stiffest;
+  return std::min(worst_balance, off / largest);
 }
 
 std::vector<ContactGap> ContactSolves::gaps() const {

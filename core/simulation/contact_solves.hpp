@@ -38,9 +38,11 @@ class ContactSolves {
   /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
   /// have gone far enough yet.
   double held_back(const std::vector<double>& move) const;
-  /// How much of a move takes loose bodies as far as they ever need to go; more would leave their
-  /// places to rounding.
-  double far_enough(const std::vector<double>& move) const;
+  /// How well tractions can be told at all, as a part of the largest: gaps are differences of
+  /// displacements, which are large where loose bodies have gone far. Collective.
+  double rounding(double largest) const;
+  /// What rounding may take from a balance at the worst, as a part of the largest traction.
+  static constexpr double worst_balance = 1e-5;
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }

@@ -178,5 +178,14 @@ TEST(ContactOfNetworks, WhatIsTakenIsExact) {
   }
 }
 
+/// Interior points come near the balance of this one, where friction is 0.6, and no nearer.
+TEST(ContactOfNetworks, TurnsEndWhatInteriorPointsLeave) {
+  const CaseSpec spec = network_of_seed(76, Loading::tension_with_contact);
+  const auto model = built(spec);
+  const Equilibrium e = find_equilibrium(*model, *make_solver(*model), 1.0);
+  EXPECT_LE(e.contact_unbalanced, 10 * spec.solver.tolerance);
+  EXPECT_LE(e.solver.residual, spec.solver.tolerance);
+}
+
 }  // namespace
 }  // namespace cdca::testing
