@@ -13,7 +13,7 @@ namespace cdca {
 namespace {
 
 /// Tips whose index differs by less than this grow together, whatever the rank count.
-constexpr double equal_index = 1e-6;
+constexpr double equal_index = 1e-5;
 constexpr int most_halvings = 6;  ///< of a load step whose contact does not settle
 const char* const cut_apart = "growth has cut the body apart between its loaded boundaries.";
 
