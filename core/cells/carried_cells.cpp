@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/carried_cells.hpp"
 
+#include "core/base/sort_once.hpp"
+
 #include <algorithm>
 #include <map>
 
 namespace cdca {
 
 namespace {
-
-void sort_once(std::vector<GlobalId>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 bool same_zone(const TipZone& a, const TipZone& b) {
   return a.crack == b.crack && a.end == b.end && a.frame.path() == b.frame.path() &&
@@ -74,28 +71,33 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
       changed_(std::move(changed)),
       same_(std::size_t(mesh.node_count()), 1),
       now_(std::size_t(unknowns_before.count()), -1) {
-  const auto differs_round = [&](LocalId node) {
-    const GridIndex at = mesh.node(node);
-    for (int dj = -1; dj <= 1; ++dj) {
-      for (int di = -1; di <= 1; ++di) {
-        const LocalId n = mesh.find_node({at.i + di, at.j + dj});
-        if (n >= 0) same_[std::size_t(n)] = 0;
-      }
-    }
-  };
-  // corners of changed elements; what their near-tip functions look like is told by other elements
+  mark_corners(mesh, unknowns);
+  carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
+  mark_zones(unknowns);
+}
+
+void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
+  mesh.for_nodes_round(node, [&](LocalId n) { same_[std::size_t(n)] = 0; });
+}
+
+void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns) {
   for (const GlobalId id : changed_) {
     for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
       const LocalId n = mesh.find_node(corner);
       if (n < 0) continue;
       same_[std::size_t(n)] = 0;
-      if (!unknowns.tips(n).empty()) differs_round(n);
+      // on which side of the crack its near-tip functions are seen may show in all of its elements
+      if (!unknowns.tips(n).empty()) differs_round(mesh, n);
     }
   }
+}
 
+void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+                                  const CellUnknowns& unknowns, const std::vector<char>& held,
+                                  const std::vector<double>& springs) {
   std::vector<char> was_held(now_.size(), 0), was_sprung(now_.size(), 0);
-  for (const LocalId u : before.held()) was_held[std::size_t(u)] = 1;
-  for (const auto& [u, spring] : before.springs()) was_sprung[std::size_t(u)] = 1;
+  for (const LocalId u : before_.held()) was_held[std::size_t(u)] = 1;
+  for (const auto& [u, spring] : before_.springs()) was_sprung[std::size_t(u)] = 1;
   const auto carry = [&](LocalId from, LocalId to, LocalId count) {
     bool alike = true;
     for (LocalId k = 0; k < count; ++k) {
@@ -107,11 +109,11 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
     return alike;
   };
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
-    if (!carry(unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2)) differs_round(n);
+    if (!carry(unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2)) differs_round(mesh, n);
   }
   const auto forget = [&](LocalId n) {
     for (const LocalId u : unknowns_before.of_cell(n)) now_[std::size_t(u)] = -1;
-    differs_round(n);
+    differs_round(mesh, n);
   };
   for (const LocalId n : unknowns_before.special_nodes()) {
     const SpecialCell &was = *unknowns_before.special(n), *is = unknowns.special(n);
@@ -122,20 +124,29 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
     bool alike = carry(was.extra, is->extra, 2 * (was.pieces.count - 1));
     for (std::size_t k = 0; k < was.tips.size(); ++k)
       alike = carry(was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
-    if (!alike) differs_round(n);
+    if (!alike) differs_round(mesh, n);
   }
   for (const LocalId n : unknowns.special_nodes()) {
     if (!unknowns_before.special(n)) forget(n);
   }
+}
 
+void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
   // functions that strain nothing are held zone by zone
   std::map<int, std::vector<LocalId>> zones;
   for (const LocalId n : unknowns.special_nodes()) {
     for (const TipUnknowns& tip : unknowns.tips(n)) zones[tip.zone].push_back(n);
   }
-  for (const auto& [number, nodes] : zones) {
-    if (std::all_of(nodes.begin(), nodes.end(), [&](LocalId n) { return same(n); })) continue;
-    for (const LocalId n : nodes) same_[std::size_t(n)] = 0;
+  // cells of two zones pass it on
+  for (bool found = true; found;) {
+    found = false;
+    for (const auto& [number, nodes] : zones) {
+      const auto kept =
+          std::count_if(nodes.begin(), nodes.end(), [&](LocalId n) { return same(n); });
+      if (kept == 0 || kept == std::ptrdiff_t(nodes.size())) continue;
+      for (const LocalId n : nodes) same_[std::size_t(n)] = 0;
+      found = true;
+    }
   }
 }
 

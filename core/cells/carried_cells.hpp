@@ -4,7 +4,6 @@
 
 #include "core/cells/cell_stiffness.hpp"
 
-#include <span>
 #include <vector>
 
 namespace cdca {
@@ -36,6 +35,17 @@ class CarriedCells {
   const std::vector<GlobalId>& changed() const { return changed_; }
 
  private:
+  /// Corners of elements that have changed differ.
+  void mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns);
+  /// Numbers of unknowns; cells that have others, or are held otherwise, differ, and so do those
+  /// round them.
+  void carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+                      const CellUnknowns& unknowns, const std::vector<char>& held,
+                      const std::vector<double>& springs);
+  /// Cells of a tip zone are the same together, or none is.
+  void mark_zones(const CellUnknowns& unknowns);
+  void differs_round(const LocalMesh& mesh, LocalId node);
+
   const CellStiffness& before_;
   std::vector<GlobalId> changed_;
   std::vector<char> same_;  ///< by node

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
-#include "core/cells/carried_cells.hpp"
+#include "core/base/sort_once.hpp"
+#include "core/cells/kept_rows.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -29,13 +29,7 @@ std::vector<char> find_regular_cells(const LocalMesh& mesh, const CellUnknowns& 
     regular[std::size_t(n)] = inside && !held[unknown] && !held[unknown + 1];
   }
   for (LocalId ghost = mesh.owned_nodes(); ghost < mesh.node_count(); ++ghost) {
-    const GridIndex at = mesh.node(ghost);
-    for (int dj = -1; dj <= 1; ++dj) {
-      for (int di = -1; di <= 1; ++di) {
-        const LocalId n = mesh.find_node({at.i + di, at.j + dj});
-        if (n >= 0) regular[std::size_t(n)] = 0;
-      }
-    }
+    mesh.for_nodes_round(ghost, [&](LocalId n) { regular[std::size_t(n)] = 0; });
   }
   for (const GlobalId id : special) {
     for (const LocalId n : mesh.element_nodes(grid.element_index(id))) regular[std::size_t(n)] = 0;
@@ -53,68 +47,9 @@ std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
       if (mesh.grid().has_element(e)) found.push_back(mesh.grid().element(e));
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_once(found);
   return found;
 }
-
-/// Rows that are what they were before the cracks grew.
-class KeptRows {
- public:
-  /// carried: null for none. count: of the unknowns now.
-  KeptRows(const CarriedCells* carried, std::size_t count) : carried_(carried) {
-    if (!carried) return;
-    row_of_.assign(count, -1);
-    const auto& before = carried->rows().unknown;
-    kept_.assign(before.size(), 0);
-    for (std::size_t r = 0; r < before.size(); ++r) {
-      const LocalId u = carried->now(before[r]);
-      if (u >= 0) row_of_[std::size_t(u)] = std::ptrdiff_t(r);
-    }
-  }
-  /// Keeps the rows of all these unknowns of a cell, if there are such.
-  bool keep(const std::vector<LocalId>& unknowns) {
-    for (const LocalId u : unknowns) {
-      if (row_of_[std::size_t(u)] < 0) return false;
-    }
-    for (const LocalId u : unknowns) kept_[std::size_t(row_of_[std::size_t(u)])] = 1;
-    return true;
-  }
-  /// The rows kept, and those made anew.
-  StiffnessRows with(StiffnessRows made) const {
-    if (!carried_) return made;
-    const StiffnessRows& before = carried_->rows();
-    StiffnessRows all;
-    std::size_t m = 0;
-    const auto add_made = [&](LocalId end) {
-      for (; m < made.unknown.size() && made.unknown[m] < end; ++m) {
-        const auto from = std::ptrdiff_t(made.start[m]), to = std::ptrdiff_t(made.start[m + 1]);
-        all.unknown.push_back(made.unknown[m]);
-        all.column.insert(all.column.end(), made.column.begin() + from, made.column.begin() + to);
-        all.value.insert(all.value.end(), made.value.begin() + from, made.value.begin() + to);
-        all.start.push_back(all.column.size());
-      }
-    };
-    for (std::size_t r = 0; r < before.unknown.size(); ++r) {
-      if (!kept_[r]) continue;
-      const LocalId unknown = carried_->now(before.unknown[r]);
-      add_made(unknown);
-      const std::size_t from = before.start[r], to = before.start[r + 1];
-      all.unknown.push_back(unknown);
-      for (std::size_t k = from; k < to; ++k) all.column.push_back(carried_->now(before.column[k]));
-      all.value.insert(all.value.end(), before.value.begin() + std::ptrdiff_t(from),
-                       before.value.begin() + std::ptrdiff_t(to));
-      all.start.push_back(all.column.size());
-    }
-    add_made(std::numeric_limits<LocalId>::max());
-    return all;
-  }
-
- private:
-  const CarriedCells* carried_;
-  std::vector<std::ptrdiff_t> row_of_;  ///< of an unknown now: its row before
-  std::vector<char> kept_;              ///< by row before
-};
 
 }  // namespace
 
@@ -154,7 +89,7 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
     if (regular[std::size_t(n)]) continue;
     const auto own = unknowns.of_cell(n);
-    if (carried && carried->same(n) && kept.keep(own)) continue;
+    if (kept.keep(n, own)) continue;
     anew[std::size_t(n)] = 1;
     for (const LocalId u : own) wanted[std::size_t(u)] = 1;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/element_stiffness.hpp"
 
+#include "core/base/sort_once.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -50,8 +52,7 @@ std::vector<GlobalId> elements_near_cracks(const LocalMesh& mesh, const ElementP
       if (mesh.find_element(e) >= 0) found.push_back(mesh.grid().element(e));
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_once(found);
   return found;
 }
 

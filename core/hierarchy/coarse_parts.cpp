@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/coarse_parts.hpp"
 
+#include "core/base/sort_once.hpp"
 #include "core/cells/quadrature.hpp"
 #include "core/mesh/shape_functions.hpp"
 
@@ -218,8 +219,7 @@ CoarseElements::CoarseElements(const LocalMesh& mesh, const CellUnknowns& unknow
   };
   for (int i = 0; i < grid.nx(); ++i) add({i, grid.ny() - 1});
   for (int j = 0; j < grid.ny(); ++j) add({grid.nx() - 1, j});
-  std::sort(special_.begin(), special_.end());
-  special_.erase(std::unique(special_.begin(), special_.end()), special_.end());
+  sort_once(special_);
   for (std::size_t b = 0; b < parts.bonds().size(); ++b) {
     bonds_at_[grid.element(parts.bonds()[b].plus)].push_back(b);
   }

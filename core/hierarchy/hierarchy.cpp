@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/hierarchy.hpp"
 
+#include "core/base/sort_once.hpp"
 #include "core/hierarchy/coarse_supports.hpp"
 
 #include <algorithm>
@@ -14,8 +15,7 @@ std::vector<GlobalId> cells_of(const WindowPlans& plans) {
   std::vector<GlobalId> nodes;
   for (const WindowPlan& w : plans.windows)
     nodes.insert(nodes.end(), w.nodes.begin(), w.nodes.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_once(nodes);
   return nodes;
 }
 

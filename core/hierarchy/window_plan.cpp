@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/window_plan.hpp"
 
+#include "core/base/sort_once.hpp"
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -65,11 +67,6 @@ class MarkedNodes {
   int width_;
   std::vector<char> marks_;
 };
-
-void sort_once(std::vector<GlobalId>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 int rounded_up(int a, int b) { return (a + b - 1) / b; }
 

@@ -2,44 +2,14 @@
 /// Exact solves for the cells near cracks, one colour of windows after the other.
 #pragma once
 
-#include "core/base/content_cache.hpp"
 #include "core/cells/carried_cells.hpp"
-#include "core/hierarchy/elimination_order.hpp"
+#include "core/hierarchy/window_factors.hpp"
 #include "core/hierarchy/window_plan.hpp"
 
 #include <map>
 #include <memory>
 
 namespace cdca {
-
-/// The factor of a window's stiffness, and where in it every unknown of the window stands.
-struct WindowFactor {
-  Eigen::VectorXi place;
-  OrderedFactor factor;
-};
-
-/// Factors kept from one growth cycle to the next: a window whose stiffness is bit for bit the same
-/// needs no new one, and one with entries at the same places no new order of elimination.
-class WindowFactors {
- public:
-  void begin_cycle() {
-    factors_.begin_cycle();
-    orders_.begin_cycle();
-  }
-  struct Found {
-    const WindowFactor* factor = nullptr;
-    std::uint64_t signature = 0;
-  };
-  /// entries: both triangles of the stiffness of a window of so many unknowns.
-  Found of(std::size_t size, const StiffnessEntries& entries);
-  void keep(const Found& found) { factors_.keep(found.signature); }
-  std::int64_t made() const { return factors_.made(); }
-  std::int64_t reused() const { return factors_.reused(); }
-
- private:
-  ContentCache<WindowFactor> factors_;
-  ContentCache<Eigen::VectorXi> orders_;
-};
 
 /// The windows of one scale. Each is solved by one rank, also where it holds cells of others: these
 /// send their forces and receive their moves, so that the result does not depend on the ranks.
@@ -83,7 +53,7 @@ class Windows {
     std::vector<std::size_t> receive_offsets{0};
     bool near_border = false;  ///< some rank's cells outside the windows are touched from another
   };
-  class Builder;
+  class Builder;  ///< windows_build.cpp
 
   void move_colour(const Colour& colour, std::span<double> forces, std::span<double> moves) const;
   void apply(const Share& share, const double* move, std::span<double> forces,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mesh/local_mesh.hpp"
 
+#include "core/base/sort_once.hpp"
 #include "core/mesh/row_spans.hpp"
 
 #include <algorithm>
@@ -49,11 +50,6 @@ void append(const RowSpans& places, std::vector<GridIndex>& list, RowIndex& inde
     index.add({span.first, row}, span.end - span.first, LocalId(list.size()));
     for (int i = span.first; i < span.end; ++i) list.push_back({i, row});
   });
-}
-
-void sort_once(std::vector<LocalId>& nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
 }  // namespace

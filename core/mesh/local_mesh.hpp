@@ -39,6 +39,18 @@ class LocalMesh {
   /// -1 when this rank does not hold it.
   LocalId find_node(GridIndex at) const { return node_index_.find(at); }
 
+  /// Calls visit(node) for a node and those of its eight neighbours that this rank holds.
+  template <class Visit>
+  void for_nodes_round(LocalId node, Visit visit) const {
+    const GridIndex at = this->node(node);
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        const LocalId n = find_node({at.i + di, at.j + dj});
+        if (n >= 0) visit(n);
+      }
+    }
+  }
+
   LocalId element_count() const { return LocalId(elements_.size()); }
   GridIndex element(LocalId element) const { return elements_[std::size_t(element)]; }
   LocalId find_element(GridIndex at) const { return element_index_.find(at); }
