@@ -11,6 +11,6 @@ namespace cdca {
 /// given.faces is set here. Sets the contact's part of `result`; returns the report of the slowest
 /// solve. Throws ContactError when this does not come to an end. Collective.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
-                            Forces& given, Equilibrium& result);
+                            FaceMotion motion, Forces& given, Equilibrium& result);
 
 }  // namespace cdca

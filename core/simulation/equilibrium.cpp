@@ -28,7 +28,8 @@ Equilibrium unloaded(Model& model) {
   return result;
 }
 
-Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor) {
+Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor,
+                             FaceMotion faces) {
   const auto all = std::size_t(model.stiffness().count());
   Forces given{std::vector<double>(all, 0.0), std::vector<double>(all, 0.0),
                std::vector<double>(all, 0.0)};
@@ -38,9 +39,12 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
     model.supports().prescribe(model.spec().boundaries, load_factor, given.held);
   });
   Equilibrium result;
-  result.solver = model.contact().empty()
-                      ? solve_once(model, solver, load_factor, given)
-                      : settle_contact(model, solver, load_factor, given, result);
+  if (model.contact().empty() || faces == FaceMotion::none) {
+    model.add_contact_forces(given.faces);
+    result.solver = solve_once(model, solver, load_factor, given);
+  } else {
+    result.solver = settle_contact(model, solver, load_factor, faces, given, result);
+  }
 
   const TurnedCells& cells = model.cells();
   std::vector<double> product(all, 0.0);

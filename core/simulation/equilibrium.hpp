@@ -28,8 +28,16 @@ struct Equilibrium {
 /// A body that has come apart carries nothing: no displacement, no force.
 Equilibrium unloaded(Model& model);
 
+/// What touching faces may do on the way to an equilibrium.
+enum class FaceMotion {
+  none,      ///< springs and tractions stay what they are
+  balanced,  ///< turn until they are in balance
+  creeping   ///< and where that is not found nearby, bodies creep there (creep.hpp)
+};
+
 /// Starts from the model's state and leaves the new one there, ghosts included. Throws SolveError
-/// when the solver does not converge. Collective.
-Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor);
+/// when the solver does not converge, ContactError when faces do not settle. Collective.
+Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, double load_factor,
+                             FaceMotion faces = FaceMotion::creeping);
 
 }  // namespace cdca

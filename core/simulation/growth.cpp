@@ -172,7 +172,7 @@ void correct_directions(Model& model, const EquilibriumSolver& solver, double lo
       return;
     }
     try {
-      find_equilibrium(model, solver, load_factor);
+      find_equilibrium(model, solver, load_factor, FaceMotion::balanced);
     } catch (const ContactError&) {
       back();
       return;

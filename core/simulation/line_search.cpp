@@ -17,18 +17,18 @@ constexpr double held = 0.5;
 }  // namespace
 
 LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
-                       const std::vector<double>& from)
+                       const std::vector<double>& from, const std::vector<double>& anchor)
     : model_(model), move_(model.state()) {
   for (std::size_t k = 0; k < move_.size(); ++k) move_[k] -= from[k];
   const TurnedCells& cells = model.cells();
   std::vector<double> product(move_.size(), 0.0);
   cells.apply(from, product);
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];
-  cells.add_spring_forces(from, product);
+  cells.add_spring_forces(anchor.empty() ? from : anchor, product);
   driving_ = cells.dot(product, move_);
   cells.apply(move_, product);
   std::vector<double> weak(move_.size(), 0.0);
-  cells.add_spring_forces(move_, weak);
+  if (anchor.empty()) cells.add_spring_forces(move_, weak);
   for (std::size_t k = 0; k < product.size(); ++k) product[k] -= weak[k];
   stiffness_ = cells.dot(product, move_);
   at_ = model.contact_spots().fields(from);

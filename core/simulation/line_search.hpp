@@ -15,9 +15,10 @@ namespace cdca {
 /// for ever.
 class LineSearch {
  public:
-  /// From a state `from` to that of the model. external: forces of the loads, N/m. Collective.
+  /// From a state `from` to that of the model. external: forces of the loads, N/m. anchor: where
+  /// weak springs stand; if empty they go along and do not count. Collective.
   LineSearch(const Model& model, const std::vector<double>& external,
-             const std::vector<double>& from);
+             const std::vector<double>& from, const std::vector<double>& anchor = {});
 
   /// Share of the way: up to 1, or up to `most` where the forces are hardly less after the whole
   /// move, since weak springs have stopped it. Collective.

@@ -40,6 +40,8 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   }
   for (std::size_t k = 0; k < own; ++k)
     forces[k] = given.external[k] + given.faces[k] - given.pulled[k];
+  cells.clear_held(forces);
+  const double without_springs = norm(cells, forces);
   // weak springs of loose bodies stand where the bodies are, or where they are to be held
   std::vector<double>& state = model.state();
   cells.add_spring_forces(given.anchor.empty() ? state : given.anchor, forces);
@@ -47,6 +49,7 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   cells.clear_held(state);
   SolverReport report;
   report.scale = norm(cells, forces);
+  if (given.drags && without_springs > 0.0) report.scale = without_springs;
   if (report.scale > 0.0) {
     const double scale = report.scale;
     report = solver.solve(cells, forces, state, scale, accuracy);

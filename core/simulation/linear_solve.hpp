@@ -17,6 +17,8 @@ struct Forces {
   std::vector<double> pulled = {};  ///< what they exert, set in the solve
   /// State in which weak springs pull with nothing; the model's, if empty.
   std::vector<double> anchor = {};
+  /// Weak springs are drag: other forces alone say how exact solves are.
+  bool drags = false;
   std::int64_t version = -1;  ///< of the stiffness that they exert it with
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Tips whose index differs by less than this grow together, whatever the rank count.
 constexpr double equal_index = 1e-5;
-constexpr int most_halvings = 6;  ///< of a load step whose contact does not settle
+constexpr int most_halvings = 3;  ///< of a load step whose contact does not settle
 const char* const cut_apart = "growth has cut the body apart between its loaded boundaries.";
 
 /// A difference between the copies of the registry is a bug that would spoil all that follows.
@@ -29,10 +29,10 @@ void compare_registries(const Model& model) {
   }
 }
 
-Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor,
-                  Recorder& recorder) {
+Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor, Recorder& recorder,
+                  FaceMotion faces = FaceMotion::creeping) {
   const Stopwatch watch;
-  Equilibrium equilibrium = find_equilibrium(model, solver, factor);
+  Equilibrium equilibrium = find_equilibrium(model, solver, factor, faces);
   recorder.solved(equilibrium, watch.seconds());
   return equilibrium;
 }
@@ -43,22 +43,30 @@ void accept(Model& model, Model::Since since, EnergyLedger& energy) {
 }
 
 /// Equilibrium at load factor `to`; where touching faces do not settle, by way of the middle, and
-/// so on, at most `halvings` times.
+/// so on, at most `halvings` times, and then by creeping there under the new loads.
 Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, double to,
                   int halvings, Recorder& recorder, EnergyLedger& energy) {
   const Model::ContactMemory memory = model.contact_memory();
   const std::vector<double> state = model.state();
   try {
-    const Equilibrium equilibrium = solve(model, solver, to, recorder);
+    const Equilibrium equilibrium = solve(model, solver, to, recorder, FaceMotion::balanced);
     energy.new_loads(model, equilibrium);
     accept(model, Model::Since::other_loads, energy);
     return equilibrium;
   } catch (const ContactError&) {
-    if (halvings == 0) throw;
   }
   model.remember(memory);
   model.state() = state;
   model.build_stiffness();
+  if (halvings == 0) {
+    // first the loads, while faces keep to what they do; then the faces, while loads are at rest
+    energy.new_loads(model, solve(model, solver, to, recorder, FaceMotion::none));
+    accept(model, Model::Since::other_loads, energy);
+    const Equilibrium equilibrium = solve(model, solver, to, recorder);
+    energy.new_cracks(model, equilibrium);
+    accept(model, Model::Since::other_cracks, energy);
+    return equilibrium;
+  }
   const double middle = 0.5 * (from + to);
   reach(model, solver, from, middle, halvings - 1, recorder, energy);
   return reach(model, solver, middle, to, halvings - 1, recorder, energy);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <sstream>
+#include <utility>
 
 namespace cdca {
 
@@ -144,7 +145,12 @@ double Model::accept_contact(Since since) {
   const double after = since == Since::other_loads ? 0.5 : 1.0;
   const double work = spots_.accept(contact_, state_, after, communicator_);
   contact_.accept();
-  return work;
+  return work + std::exchange(rubbed_, 0.0);
+}
+
+void Model::let_slip() {
+  rubbed_ += spots_.accept(contact_, state_, 1.0, communicator_);
+  contact_.accept();
 }
 
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
@@ -238,7 +244,8 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
 
 bool Model::has_weak_springs() const {
   const auto& bodies = bodies_->list();
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return !b.held; });
+  return all_held_ ||
+         std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return !b.held; });
 }
 
 std::vector<double> Model::springs(double weak) const {
@@ -246,7 +253,7 @@ std::vector<double> Model::springs(double weak) const {
   std::vector<double> springs(std::size_t(unknowns_.count()), 0.0);
   for (LocalId n = 0; n < mesh_.owned_nodes(); ++n) {
     for (int p = 0; p < unknowns_.pieces(n); ++p) {
-      if (bodies_->list()[bodies_->body_of(n, p)].held) continue;
+      if (!all_held_ && bodies_->list()[bodies_->body_of(n, p)].held) continue;
       const auto u = std::size_t(unknowns_.of_piece(n, p));
       springs[u] = springs[u + 1] = weak;
     }

@@ -52,11 +52,13 @@ class Model {
   struct ContactMemory {
     ContactPatches patches;
     ContactSpots spots;
+    double rubbed;
   };
-  ContactMemory contact_memory() const { return {contact_, spots_}; }
+  ContactMemory contact_memory() const { return {contact_, spots_, rubbed_}; }
   void remember(const ContactMemory& memory) {
     contact_ = memory.patches;
     spots_ = memory.spots;
+    rubbed_ = memory.rubbed;
   }
 
   /// Takes over a registry that differs from the model's by its events only.
@@ -94,6 +96,11 @@ class Model {
   /// into friction, J per metre: against the mean of the tractions before and after where the loads
   /// have changed, against those after where cracks have grown under the same loads. Collective.
   double accept_contact(Since since = Since::other_loads);
+  /// On the way to an equilibrium: faces have slipped as far as the state says, and stick or slip
+  /// from there. The work that this has taken counts in the next accept_contact(). Collective.
+  void let_slip();
+  /// From the next build_stiffness() on, weak springs hold all bodies, not only loose ones.
+  void hold_all_bodies(bool all) { all_held_ = all; }
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
@@ -166,6 +173,8 @@ class Model {
   double built_weak_share_ = 0.0;
   std::unique_ptr<TurnedCells> cells_;
   std::int64_t stiffness_version_ = 0;
+  bool all_held_ = false;  ///< by weak springs
+  double rubbed_ = 0.0;    ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
   std::vector<double> state_;
 };

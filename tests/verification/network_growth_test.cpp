@@ -3,6 +3,7 @@
 /// separated, with finite numbers, and growth never gives energy back.
 #include "core/base/errors.hpp"
 #include "core/cracks/random_cracks.hpp"
+#include "core/simulation/creep.hpp"
 #include "core/simulation/equilibrium.hpp"
 #include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
@@ -185,6 +186,46 @@ TEST(ContactOfNetworks, TurnsEndWhatInteriorPointsLeave) {
   const Equilibrium e = find_equilibrium(*model, *make_solver(*model), 1.0);
   EXPECT_LE(e.contact_unbalanced, 10 * spec.solver.tolerance);
   EXPECT_LE(e.solver.residual, spec.solver.tolerance);
+}
+
+/// Creeps from where faces still keep to what they did before the load.
+Crept crept(Model& model, double factor) {
+  const auto solver = make_solver(model);
+  find_equilibrium(model, *solver, factor, FaceMotion::none);
+  const std::vector<double> none(model.state().size(), 0.0);
+  Forces given{none, none, none};
+  model.supports().prescribe(model.spec().boundaries, factor, given.held);
+  ContactSolves solves(model, *solver, factor, given);
+  const Crept found = creep_to_balance(model, solves, given, 10 * model.spec().solver.tolerance);
+  model.build_stiffness();
+  return found;
+}
+
+/// Without friction there is one equilibrium, whatever the way there.
+TEST(Creep, EndsWhereTurnsEnd) {
+  const CaseSpec spec = network_of_seed(96, Loading::compression);
+  const auto one = built(spec), other = built(spec);
+  const Equilibrium turned = find_equilibrium(*one, *make_solver(*one), 0.2);
+  const Crept way = crept(*other, 0.2);
+  std::cout << way.turns << " turns\n";
+  ASSERT_TRUE(way.found);
+  EXPECT_LE(way.unbalanced, 10 * spec.solver.tolerance);
+  const Equilibrium found = find_equilibrium(*other, *make_solver(*other), 0.2);
+  EXPECT_NEAR(found.strain_energy, turned.strain_energy, 1e-8 * turned.strain_energy);
+  EXPECT_LE(found.contact_iterations, 5);
+}
+
+/// With friction it ends at one of them, and the way there has rubbed.
+TEST(Creep, Rubs) {
+  for (const unsigned seed : {4U, 37U, 41U}) {
+    const CaseSpec spec = network_of_seed(seed, Loading::compression);
+    const auto model = built(spec);
+    ASSERT_TRUE(crept(*model, 0.2).found) << "seed " << seed;
+    const Equilibrium found = find_equilibrium(*model, *make_solver(*model), 0.2);
+    EXPECT_LE(found.contact_iterations, 3) << "seed " << seed;
+    EXPECT_LE(found.contact_unbalanced, 10 * spec.solver.tolerance) << "seed " << seed;
+    EXPECT_GT(model->accept_contact(Model::Since::other_cracks), 0.0) << "seed " << seed;
+  }
 }
 
 }  // namespace

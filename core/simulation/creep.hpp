@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The way to an equilibrium that is far away: bodies move as if in honey.
+#pragma once
+
+#include "core/simulation/contact_solves.hpp"
+
+namespace cdca {
+
+struct Crept {
+  bool found = false;
+  int turns = 0;
+  double unbalanced = 1.0;  ///< tractions, as a part of the largest
+};
+
+/// Where faces lose their hold, the next equilibrium may be far away, and with friction it depends
+/// on the way there. Here drag resists all motion, faces slip on the way (Model::let_slip), and
+/// every step is a balance with the drag, which can always be found if the drag is firm enough.
+/// Ends where drag takes next to nothing any more, with tractions balanced to `enough` of the
+/// largest; where that is not found, states and displacements are what they were. Collective.
+Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough);
+
+}  // namespace cdca

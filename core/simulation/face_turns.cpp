@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/face_turns.hpp"
+
+#include "core/simulation/line_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cdca {
+
+namespace {
+
+/// Limits of friction follow the pressures in so many iterations, then only where states settle.
+constexpr int follow_at_once = 20, follow_at_once_in_drag = 4;
+/// Moves shorter than this turn faces one by one; after a few of them faces have jammed.
+constexpr double short_move = 0.1;
+constexpr int short_moves = 4;
+constexpr double firmest = 1e-3, weakest = 1e-6;  ///< springs of loose bodies
+constexpr double farthest = 1024;                 ///< that these bodies go, in moves
+constexpr double nearly = 1e-2;                   ///< unbalanced tractions where few faces turn
+
+/// How well tractions can be balanced after a solve, as a part of the largest: `enough` where it
+/// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that, and
+/// no better than `rounding` lets gaps be told; less than nothing where it was not exact.
+double balance_after(const SolverReport& solve, double wanted, double enough, double rounding) {
+  if (solve.residual <= wanted) return std::max(enough, rounding);
+  const double allowed = std::max(rounding, enough * solve.residual / wanted);
+  return solve.rounded && allowed <= ContactSolves::worst_balance ? allowed : -1.0;
+}
+
+}  // namespace
+
+FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const Rule& rule)
+    : model_(model),
+      solves_(solves),
+      given_(given),
+      rule_(rule),
+      weak_(drags() ? rule.drag : firmest) {
+  // weak springs must not turn small errors into long ways
+  if (model.has_weak_springs())
+    part_ = std::clamp(1e-13 / model.spec().solver.tolerance, 1e-2, 1.0);
+  given.drags = drags();
+  if (drags()) given.anchor = model.state();
+  // new faces answer to where they are, so that the first move goes towards balance
+  const auto here = solves.gaps();
+  const bool turned = model.contact().respond(here, model.contact().limits_at(here)).springs;
+  if (turned || drags()) solves.turn_springs(weak_);
+}
+
+FaceTurns::End FaceTurns::turn() {
+  while (count_ < rule_.most) {
+    if (once()) return End::balanced;
+    if (cut_short_ == short_moves || (!drags() && count_ == follow_at_once)) return End::jammed;
+  }
+  return End::too_many;
+}
+
+void FaceTurns::begin_again() {
+  solves_.build_stiffness(weak_);
+  unbalanced_ = nearly;
+  cut_short_ = 0;
+}
+
+bool FaceTurns::once() {
+  ContactPatches& contact = model_.contact();
+  const double tolerance = model_.spec().solver.tolerance, enough = rule_.enough;
+  ++count_;
+  // while many faces still change their states it is of no use to be exact
+  const bool near = settled_ || unbalanced_ <= nearly;
+  // rounding can keep a face that is about to turn from settling for ever
+  const int at_once = drags() ? follow_at_once_in_drag : follow_at_once;
+  const bool following = count_ <= at_once || (near && solves_.slowest().rounded);
+  const double agreed = near ? 0.1 * enough : 0.1 * std::min(1.0, 10 * unbalanced_) * unbalanced_;
+  const std::vector<double> from = model_.state();
+  solves_.once({part_, following && !near ? 1e-3 : 0.0});
+  if (following || settled_) solves_.turn_limits(std::max(agreed, 0.1 * enough), part_);
+  const LineSearch search(model_, given_.external, from, given_.anchor);
+  const double before_drag = drags() ? 0.0 : solves_.held_back(search.move());
+  const double share = search.find(before_drag > enough ? farthest : 1.0);
+  search.go(share, from, model_.state());
+  const auto gaps = search.gaps(share);
+  const bool whole = share >= 1.0;
+  settled_ = whole && contact.settled(gaps);
+  const auto limits = following || settled_ ? contact.limits_at(gaps) : contact.limits();
+  const auto change = contact.respond(gaps, limits);
+  // bodies that only others hold are let go little by little
+  const double before = weak_;
+  if (whole && !drags()) weak_ = std::max(weakest, 0.3 * weak_);
+  if (change.springs || (weak_ != before && model_.has_weak_springs())) solves_.turn_springs(weak_);
+  constexpr double tiny = std::numeric_limits<double>::min();
+  unbalanced_ = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
+  pulled_ = drags() ? solves_.held_back(from_anchor()) : before_drag;
+  // rounding keeps solves from being exact when loose bodies have gone far
+  const double wanted = drags() ? 0.1 * enough : part_ * tolerance;
+  const double balanced =
+      balance_after(solves_.slowest(), wanted, enough, solves_.rounding(change.largest));
+  cut_short_ += share < short_move;
+  return share == 1.0 && unbalanced_ <= balanced && (drags() || pulled_ <= enough);
+}
+
+std::vector<double> FaceTurns::from_anchor() const {
+  std::vector<double> move = model_.state();
+  for (std::size_t k = 0; k < move.size(); ++k) move[k] -= given_.anchor[k];
+  return move;
+}
+
+}  // namespace cdca

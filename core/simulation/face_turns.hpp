@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Faces turn from state to state by what each solve shows, until their tractions are in balance.
+#pragma once
+
+#include "core/simulation/contact_solves.hpp"
+#include "core/simulation/linear_solve.hpp"
+
+namespace cdca {
+
+/// Newton's method for the laws of the faces, with a line search.
+class FaceTurns {
+ public:
+  struct Rule {
+    double enough = 0.0;  ///< balanced: to this part of the largest traction
+    int most = 0;         ///< turns
+    /// Drag on all bodies from where they are at first, as a part of the cells' own stiffness.
+    /// Without it loose bodies alone feel weak springs, which go along with them and get weaker.
+    double drag = 0.0;
+  };
+  /// Begins at the model's state. Collective, as the others.
+  FaceTurns(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
+
+  enum class End { balanced, jammed, too_many };
+  /// Goes on until faces are in balance, or jam: their moves become short again and again.
+  End turn();
+  /// Springs are those of the faces as they are; after others have moved the model.
+  void begin_again();
+
+  int count() const { return count_; }
+  void add_to_count(int steps) { count_ += steps; }
+  double unbalanced() const { return unbalanced_; }
+  /// Taken by springs of bodies in the last turn, as a part of all forces.
+  double pulled() const { return pulled_; }
+
+ private:
+  bool drags() const { return rule_.drag > 0.0; }
+  bool once();
+  std::vector<double> from_anchor() const;
+
+  Model& model_;
+  ContactSolves& solves_;
+  Forces& given_;
+  Rule rule_;
+  double part_ = 1.0;  ///< of the solver's tolerance
+  double weak_;        ///< springs of bodies
+  double unbalanced_ = 1.0, pulled_ = 0.0;
+  bool settled_ = false;
+  int count_ = 0;      ///< turns so far
+  int cut_short_ = 0;  ///< short moves so far
+};
+
+}  // namespace cdca
