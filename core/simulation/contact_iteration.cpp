@@ -15,6 +15,7 @@ namespace {
 
 /// Tractions unbalanced by more than this part of the largest are not worth going on from.
 constexpr double nearly = 1e-2;
+constexpr int most_steps = 150;  ///< of creep
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
@@ -31,23 +32,37 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   const Model::ContactMemory at_first = model.contact_memory();
   const std::vector<double> here = model.state();
   FaceTurns turns(model, solves, given, {enough, most});
-  const auto note = [&](int count, double unbalanced) {
-    result.contact_iterations = count;
+  int crept_turns = 0;
+  const auto note = [&](double unbalanced) {
+    result.contact_iterations = turns.count() + crept_turns;
     result.contact_unbalanced = unbalanced;
     result.linear_solves = solves.count();
   };
-  bool begin_anew = false;
+  const auto creep = [&] {
+    // friction depends on the way, which begins where the faces have been
+    model.remember(at_first);
+    model.state() = here;
+    const Crept crept = creep_to_balance(model, solves, given, enough, most_steps);
+    crept_turns += crept.turns;
+    note(crept.unbalanced);
+    return crept.found;
+  };
+  int jams = 0;
   while (turns.count() < most) {
     const FaceTurns::End end = turns.turn();
-    note(turns.count(), turns.unbalanced());
+    note(turns.unbalanced());
     if (end == FaceTurns::End::balanced) return solves.slowest();
     if (end == FaceTurns::End::too_many || !FaceBarrier::suits(model.contact())) continue;
     const Model::ContactMemory memory = model.contact_memory();
     const std::vector<double> state = model.state();
-    const auto balance = solves.balance_faces(enough, begin_anew ? 0.0 : nearly);
-    begin_anew = true;
+    if (++jams == 2 && motion == FaceMotion::creeping) {
+      if (creep()) return solves.slowest();
+      model.remember(memory);
+      model.state() = state;
+    }
+    const auto balance = solves.balance_faces(enough, jams == 1 ? nearly : 0.0);
     turns.add_to_count(balance.steps);
-    note(turns.count(), balance.unbalanced);
+    note(balance.unbalanced);
     if (balance.found) return solves.slowest();
     if (balance.unbalanced > nearly) {
       model.remember(memory);
@@ -55,13 +70,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     }
     turns.begin_again();
   }
-  if (motion == FaceMotion::creeping) {
-    model.remember(at_first);
-    model.state() = here;
-    const Crept crept = creep_to_balance(model, solves, given, enough);
-    note(turns.count() + crept.turns, crept.unbalanced);
-    if (crept.found) return solves.slowest();
-  }
+  if (motion == FaceMotion::creeping && jams < 2 && creep()) return solves.slowest();
   std::ostringstream text;
   text << "the contact of crack faces at load factor " << load_factor << " did not settle in "
        << result.contact_iterations << " iterations; smaller load steps may help.";

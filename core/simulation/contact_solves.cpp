@@ -81,6 +81,7 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
   std::vector<double> nearest = state;
   double least = 1.0;
   bool built = false;
+  given_.anchor = state;  // lest the faces, each a little pressed, drive loose bodies far apart
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
     if (!built) build_stiffness(loosest);
@@ -91,7 +92,7 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
   while (!balance.found && balance.steps < most) {
     ++balance.steps;
     built = false;
-    given_.anchor = state;
+    const std::vector<double> before = state;
     const double agree = of_unbalanced * balance.unbalanced;
     double share = 0.0;
     try {
@@ -101,8 +102,8 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
     }
     std::vector<double> move = state;
     for (std::size_t k = 0; k < state.size(); ++k) {
-      move[k] = share * (state[k] - given_.anchor[k]);
-      state[k] = given_.anchor[k] + move[k];
+      state[k] = before[k] + share * (state[k] - before[k]);
+      move[k] = state[k] - given_.anchor[k];
     }
     left = faces.began_anew() ? 1.0 : (1 - share) * left + share * slowest_.residual;
     balance.unbalanced = faces.unbalanced(gaps());
@@ -111,7 +112,12 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
       nearest = state;
     }
     const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
-    balance.found = std::max(balance.unbalanced, left) <= told_apart && held_back(move) <= enough;
+    balance.found = std::max(balance.unbalanced, left) <= told_apart;
+    if (const double pulled = held_back(move); balance.found && pulled > enough) {
+      given_.anchor = state;
+      left = pulled;
+      balance.found = false;
+    }
     if (faces.began_anew() && least <= near) break;
   }
   given_.anchor.clear();

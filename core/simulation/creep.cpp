@@ -9,8 +9,9 @@
 
 namespace cdca {
 
-Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough) {
-  constexpr int most = 200, most_turns = 25;
+Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough,
+                       int most) {
+  constexpr int most_turns = 25;
   constexpr double at_first = 1e-2, firmest = 1e4, loosest = 1e-9;
   constexpr double less = 0.4, more = 5;        // drag after steps that succeed, and that do not
   constexpr double roughly = 1e-5, part = 0.1;  // of forces, on the way

@@ -17,6 +17,7 @@ struct Crept {
 /// every step is a balance with the drag, which can always be found if the drag is firm enough.
 /// Ends where drag takes next to nothing any more, with tractions balanced to `enough` of the
 /// largest; where that is not found, states and displacements are what they were. Collective.
-Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough);
+/// most: steps.
+Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough, int most);
 
 }  // namespace cdca
