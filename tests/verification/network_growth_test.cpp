@@ -196,10 +196,7 @@ Crept crept(Model& model, double factor) {
   Forces given{none, none, none};
   model.supports().prescribe(model.spec().boundaries, factor, given.held);
   ContactSolves solves(model, *solver, factor, given);
-  const Crept found =
-      creep_to_balance(model, solves, given, 10 * model.spec().solver.tolerance, 100);
-  model.build_stiffness();
-  return found;
+  return creep_to_balance(model, solves, given, 10 * model.spec().solver.tolerance, 100);
 }
 
 /// Without friction there is one equilibrium, whatever the way there.
