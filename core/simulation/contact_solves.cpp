@@ -112,12 +112,8 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
       nearest = state;
     }
     const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
-    balance.found = std::max(balance.unbalanced, left) <= told_apart;
-    if (const double pulled = held_back(move); balance.found && pulled > enough) {
-      given_.anchor = state;
-      left = pulled;
-      balance.found = false;
-    }
+    balance.found = std::max(balance.unbalanced, left) <= told_apart && held_back(move) <= enough;
+    if (balance.unbalanced <= nearly) given_.anchor = state;
     if (faces.began_anew() && least <= near) break;
   }
   given_.anchor.clear();
