@@ -13,8 +13,6 @@ namespace cdca {
 
 namespace {
 
-/// Tractions unbalanced by more than this part of the largest are not worth going on from.
-constexpr double nearly = 1e-2;
 constexpr int most_steps = 150;  ///< of creep
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
@@ -60,11 +58,11 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
       model.remember(memory);
       model.state() = state;
     }
-    const auto balance = solves.balance_faces(enough, jams == 1 ? nearly : 0.0);
+    const auto balance = solves.balance_faces(enough, jams == 1 ? FaceTurns::nearly : 0.0);
     turns.add_to_count(balance.steps);
     note(balance.unbalanced);
     if (balance.found) return solves.slowest();
-    if (balance.unbalanced > nearly) {
+    if (balance.unbalanced > FaceTurns::nearly) {
       model.remember(memory);
       model.state() = state;
     }

@@ -8,8 +8,9 @@
 namespace cdca {
 
 /// Solves until the tractions that faces answer with are those that the last solve counted with.
-/// given.faces is set here. Sets the contact's part of `result`; returns the report of the slowest
-/// solve. Throws ContactError when this does not come to an end. Collective.
+/// motion: balanced or creeping. given.faces is set here. Sets the contact's part of `result`;
+/// returns the report of the slowest solve. Throws ContactError when this does not come to an end.
+/// Collective.
 SolverReport settle_contact(Model& model, const EquilibriumSolver& solver, double load_factor,
                             FaceMotion motion, Forces& given, Equilibrium& result);
 

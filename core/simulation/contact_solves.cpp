@@ -69,7 +69,6 @@ void ContactSolves::turn_limits(double agreed, double part) {
 
 ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) {
   constexpr int most = 150;
-  constexpr double loosest = 1e-9;  // weak springs: the other faces hold loose bodies meanwhile
   constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
   constexpr double nearly = 1e-4;  // balanced: solves are exact from here on
   ContactPatches& contact = model_.contact();
@@ -112,8 +111,12 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
       nearest = state;
     }
     const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
-    balance.found = std::max(balance.unbalanced, left) <= told_apart && held_back(move) <= enough;
-    if (balance.unbalanced <= nearly) given_.anchor = state;
+    const double pulled = held_back(move);
+    balance.found = std::max(balance.unbalanced, left) <= told_apart && pulled <= enough;
+    if (balance.unbalanced <= nearly) {
+      given_.anchor = state;
+      left = std::max(left, pulled);  // springs that have gone along pull with nothing any more
+    }
     if (faces.began_anew() && least <= near) break;
   }
   given_.anchor.clear();

@@ -43,6 +43,8 @@ class ContactSolves {
   double rounding(double largest) const;
   /// What rounding may take from a balance at the worst, as a part of the largest traction.
   static constexpr double worst_balance = 1e-5;
+  /// Weak springs where faces near them hold loose bodies, as a part of the cells' own stiffness.
+  static constexpr double loosest = 1e-9;
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }

@@ -9,10 +9,30 @@
 
 namespace cdca {
 
+namespace {
+
+struct DragStep {
+  bool balanced = false;
+  int turns = 0;
+  double unbalanced = 1.0, pulled = 0.0;  ///< as of FaceTurns
+};
+
+DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule) {
+  try {
+    FaceTurns turns(model, solves, given, rule);
+    const bool balanced = turns.turn() == FaceTurns::End::balanced;
+    return {balanced, turns.count(), turns.unbalanced(), turns.pulled()};
+  } catch (const SolveError&) {
+    return {};  // springs of faces so different that no solve is exact; more drag helps here, too
+  }
+}
+
+}  // namespace
+
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough,
                        int most) {
   constexpr int most_turns = 25;
-  constexpr double at_first = 1e-2, firmest = 1e4, loosest = 1e-9;
+  constexpr double at_first = 1e-2, firmest = 1e4;
   constexpr double less = 0.4, more = 5;        // drag after steps that succeed, and that do not
   constexpr double roughly = 1e-5, part = 0.1;  // of forces, on the way
   constexpr double at_rest = 1e-6;              // forces that drag takes, as a part of all
@@ -22,31 +42,26 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
   double drag = at_first, close = roughly;
   int in_a_row = 0;
   model.hold_all_bodies(true);
-  for (int k = 0; k < most && drag < firmest && !crept.found; ++k) {
+  for (int k = 0; k < most && drag < firmest; ++k) {
     const Model::ContactMemory memory = model.contact_memory();
     const std::vector<double> state = model.state();
-    FaceTurns turns(model, solves, given, {close, most_turns, drag});
-    bool balanced = false;
-    try {
-      balanced = turns.turn() == FaceTurns::End::balanced;
-    } catch (const SolveError&) {
-      // springs of faces so different that no solve is exact; more drag helps here, too
-    }
-    crept.turns += turns.count();
-    crept.unbalanced = turns.unbalanced();
-    if (!balanced) {
+    const DragStep now = step(model, solves, given, {close, most_turns, drag});
+    crept.turns += now.turns;
+    crept.unbalanced = now.unbalanced;
+    if (!now.balanced) {
       model.remember(memory);
       model.state() = state;
       drag *= more;
       in_a_row = 0;
       continue;
     }
-    const bool rests = turns.pulled() <= at_rest;
+    const bool rests = now.pulled <= at_rest;
     crept.found = rests && close == enough;
     if (crept.found) break;
-    close = rests ? enough : std::clamp(part * turns.pulled(), enough, roughly);
+    close = rests ? enough : std::clamp(part * now.pulled, enough, roughly);
     model.let_slip();
-    drag = std::max(loosest, drag * std::pow(less, std::clamp(++in_a_row - 1, 1, 4)));
+    const int power = std::clamp(++in_a_row - 1, 1, 4);
+    drag = std::max(ContactSolves::loosest, drag * std::pow(less, power));
   }
   model.hold_all_bodies(false);
   given.drags = false;
@@ -55,7 +70,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     model.remember(first_memory);
     model.state() = first;
   }
-  solves.build_stiffness(loosest);  // without the drag
+  solves.build_stiffness(ContactSolves::loosest);  // without the drag
   return crept;
 }
 

@@ -18,7 +18,6 @@ constexpr double short_move = 0.1;
 constexpr int short_moves = 4;
 constexpr double firmest = 1e-3, weakest = 1e-6;  ///< springs of loose bodies
 constexpr double farthest = 1024;                 ///< that these bodies go, in moves
-constexpr double nearly = 1e-2;                   ///< unbalanced tractions where few faces turn
 
 /// How well tractions can be balanced after a solve, as a part of the largest: `enough` where it
 /// was as exact as `wanted`, or worse in the measure in which rounding has kept it from that, and

@@ -20,6 +20,9 @@ class FaceTurns {
   /// Begins at the model's state. Collective, as the others.
   FaceTurns(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
 
+  /// Tractions unbalanced by this part of the largest: few faces are left to turn.
+  static constexpr double nearly = 1e-2;
+
   enum class End { balanced, jammed, too_many };
   /// Goes on until faces are in balance, or jam: their moves become short again and again.
   End turn();
