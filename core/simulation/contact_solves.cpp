@@ -111,11 +111,11 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
       nearest = state;
     }
     const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
-    const double pulled = held_back(move);
-    balance.found = std::max(balance.unbalanced, left) <= told_apart && pulled <= enough;
-    if (balance.unbalanced <= nearly) {
+    balance.found = std::max(balance.unbalanced, left) <= told_apart;
+    if (const double pulled = held_back(move); balance.found && pulled > enough) {
       given_.anchor = state;
-      left = std::max(left, pulled);  // springs that have gone along pull with nothing any more
+      left = pulled;
+      balance.found = false;
     }
     if (faces.began_anew() && least <= near) break;
   }
