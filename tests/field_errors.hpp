@@ -2,7 +2,7 @@
 /// Distance of a computed field from an exact one.
 #pragma once
 
-#include "core/cells/quadrature.hpp"
+#include "core/cells/tip_quadrature.hpp"
 #include "tests/plates.hpp"
 
 #include <cmath>
@@ -33,7 +33,7 @@ inline FieldErrors errors_of(const Model& model, const ExactField& exact,
     for (int part = 0; part < model.cuts().parts(e); ++part) {
       const PartBasis basis(model.basis(), e, part);
       for (const auto& q :
-           tip_quadrature(model.cuts().find(e), part, places, grid.element_size())) {
+           tip_quadrature(model.cuts().find(e), part, places, grid.element_size(), 8)) {
         basis.evaluate(q.at, functions);
         const FieldValue u = field_value(functions, model.state());
         const Vec2 x = grid.from_grid(Vec2(e.i, e.j) + q.at);

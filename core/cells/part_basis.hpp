@@ -4,7 +4,7 @@
 
 #include "core/cells/cell_unknowns.hpp"
 #include "core/cells/element_cuts.hpp"
-#include "core/cells/quadrature.hpp"
+#include "core/cells/tip_quadrature.hpp"
 #include "core/cells/tip_zone.hpp"
 #include "core/mesh/local_mesh.hpp"
 

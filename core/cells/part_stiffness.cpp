@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/part_stiffness.hpp"
 
-#include "core/cells/quadrature.hpp"
+#include "core/cells/tip_quadrature.hpp"
 #include "core/mesh/shape_functions.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/interaction_integral.hpp"
 
-#include "core/cells/quadrature.hpp"
+#include "core/cells/tip_quadrature.hpp"
 #include "core/mechanics/contact_patches.hpp"
 #include "core/mechanics/domain_weight.hpp"
 #include "core/mechanics/side_walk.hpp"
@@ -83,7 +83,7 @@ class TipIntegral {
     if (!loads_.body) return;
     for (int part = 0; part < c_.cuts.parts(e); ++part) {
       for (const QuadraturePoint& point :
-           tip_quadrature(c_.cuts.find(e), part, {tip_in(e)}, grid_.element_size())) {
+           tip_quadrature(c_.cuts.find(e), part, {tip_in(e)}, grid_.element_size(), 8)) {
         const Vec2 x = grid_.from_grid(Vec2(e.i, e.j) + point.at);
         const double w = point.weight * grid_.element_size().prod() * q.value(point.at);
         take_off(x, FaceSide::none, w, axes_ * loads_.body(x), m);

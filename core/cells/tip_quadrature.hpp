@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quadrature of functions that are singular at tips and kinked round them.
+#pragma once
+
+#include "core/cells/quadrature.hpp"
+
+#include <vector>
+
+namespace cdca {
+
+/// A tip as quadrature sees it.
+struct SingularPlace {
+  Vec2 at{0, 0};                ///< inside-the-element coordinates; may lie outside the element
+  std::vector<double> bends{};  ///< distances (m) at which the near-tip functions have a kink
+};
+
+/// For parts with near-tip functions: points on rays from the tip, in the square root of the
+/// distance, so that what near-tip functions make of a straight crack is exact along them, and as
+/// dense between them as the sides of the part seem to bend when seen from the tip. Where several
+/// tips are near, triangles are halved until each has but one, and small where circles on which
+/// cracks bend meet. h: element size, m. along: points on a ray, at least; 5 are exact for products
+/// of near-tip and bilinear functions, more for integrands with further factors.
+std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
+                                            const std::vector<SingularPlace>& tips, const Vec2& h,
+                                            int along = 5);
+
+/// Points on a straight line, with weights adding up to 1, graded towards the tips.
+std::vector<QuadraturePoint> line_quadrature(const Vec2& from, const Vec2& to,
+                                             const std::vector<SingularPlace>& tips);
+
+}  // namespace cdca
