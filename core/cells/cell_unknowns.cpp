@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_unknowns.hpp"
 
+#include "core/cells/tip_functions.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -30,7 +32,7 @@ std::pair<GlobalId, SpecialCell> read_cell(const std::vector<std::int64_t>& in, 
   }
   const auto tips = std::size_t(in[at++]);
   for (std::size_t k = 0; k < tips; ++k, at += 2)
-    cell.tips.push_back({int(in[at]), 0, LocalId(in[at + 1])});
+    cell.tips.push_back({int(in[at]), 0, LocalId(in[at + 1]), {}});
   return {node, std::move(cell)};
 }
 
@@ -43,6 +45,17 @@ CellUnknowns::CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
   find_own(mesh, elements, zones, found);
   tell_ghosts(mesh, communicator, found);
   number(mesh, std::move(found));
+  make_tip_functions(mesh, zones);
+}
+
+void CellUnknowns::make_tip_functions(const LocalMesh& mesh, const std::vector<TipZone>& zones) {
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    for (TipUnknowns& tip : cells_[k].tips) {
+      if (tip.has_modes()) continue;
+      tip.functions = orthonormal_tip_functions(mesh.grid(), mesh.node(special_nodes_[k]),
+                                                zones[std::size_t(tip.zone)].frame);
+    }
+  }
 }
 
 void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
@@ -56,7 +69,7 @@ void CellUnknowns::find_own(const LocalMesh& mesh, const ElementParts& elements,
   for (std::size_t z = 0; z < zones.size(); ++z) {
     for (const GlobalId id : zones[z].nodes) {
       const LocalId n = mesh.find_node(mesh.grid().node_index(id));
-      if (n >= 0) candidates[n].push_back({int(z), 0, zones[z].with_modes.count(id) ? 2 : 8});
+      if (n >= 0) candidates[n].push_back({int(z), 0, zones[z].with_modes.count(id) ? 2 : 8, {}});
     }
   }
   for (auto& [n, tips] : candidates) {

@@ -14,12 +14,14 @@
 
 namespace cdca {
 
-/// Eight unknowns: the coefficients b of the four near-tip functions (Eq. 5), x and y of each; or
-/// two, those of the fields of modes I and II.
+/// Eight unknowns: the coefficients of the cell's four near-tip functions, x and y of each; or two,
+/// those of the fields of modes I and II.
 struct TipUnknowns {
   int zone = 0;  ///< index of the tip zone
   LocalId first = 0;
   LocalId count = 8;
+  /// Of the functions of Eq. 5, a column for each of the cell's (orthonormal_tip_functions).
+  Eigen::Matrix4d functions = Eigen::Matrix4d::Identity();
   bool has_modes() const { return count == 2; }
 };
 
@@ -66,6 +68,7 @@ class CellUnknowns {
                 const std::vector<TipZone>& zones, Cells& found);
   void tell_ghosts(const LocalMesh& mesh, Communicator& communicator, Cells& found);
   void number(const LocalMesh& mesh, Cells found);
+  void make_tip_functions(const LocalMesh& mesh, const std::vector<TipZone>& zones);
 
   LocalId owned_nodes_ = 0;
   LocalId ghost_start_ = 0;  ///< first unknown of the first ghost

@@ -54,7 +54,7 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
       const FaceSide side = side_of_piece(context, zone, nodes[a], piece);
       const auto at_node =
           near_tip_functions(zone.frame.polar(grid.node_position(corners[a]), side));
-      tips_.push_back({a, &zone, tip.first, tip.has_modes(), side, at_node.value});
+      tips_.push_back({a, &zone, &tip, side, at_node.value});
     }
   }
   // one zone after the other, so that its functions are evaluated once a point
@@ -79,7 +79,7 @@ std::vector<LocalId> PartBasis::unknowns() const {
     if (u >= 0) first.push_back(u);
   }
   for (const TipShape& tip : tips_) {
-    for (LocalId l = 0; l < (tip.modes ? 1 : 4); ++l) first.push_back(tip.first + 2 * l);
+    for (LocalId l = 0; l < tip.unknowns->count; l += 2) first.push_back(tip.unknowns->first + l);
   }
   return first;
 }
@@ -105,21 +105,30 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
       }
       f = near_tip_functions(known->frame.polar(position(p), side));
     }
+    Eigen::Vector4d values;
+    Eigen::Matrix<double, 2, 4> gradients;
     for (std::size_t l = 0; l < 4; ++l) {
       const double shifted = f.value[l] - tip.at_node[l];
-      functions.push_back({tip.first + (tip.modes ? 0 : 2 * LocalId(l)),
-                           n.value[tip.corner] * shifted,
-                           shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l],
-                           tip.modes ? &tip.zone->modes[l] : nullptr});
+      const auto k = Eigen::Index(l);
+      values[k] = n.value[tip.corner] * shifted;
+      gradients.col(k) = shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l];
     }
+    const bool modes = tip.unknowns->has_modes();
+    if (!modes) {
+      values = tip.unknowns->functions.transpose() * values;
+      gradients = gradients * tip.unknowns->functions;
+    }
+    for (Eigen::Index k = 0; k < 4; ++k)
+      functions.push_back({tip.unknowns->first + (modes ? 0 : 2 * LocalId(k)), values[k],
+                           gradients.col(k), modes ? &tip.zone->modes[std::size_t(k)] : nullptr});
   }
 }
 
 std::vector<double> PartBasis::tip_signature() const {
   std::vector<double> signature;
   for (const TipShape& tip : tips_) {
-    signature.insert(signature.end(),
-                     {double(tip.corner), tip.modes ? 1.0 : 0.0, double(int(tip.side))});
+    signature.insert(signature.end(), {double(tip.corner), tip.unknowns->has_modes() ? 1.0 : 0.0,
+                                       double(int(tip.side))});
     for (const Vec2& p : tip.zone->frame.path()) signature.insert(signature.end(), {p.x(), p.y()});
   }
   return signature;
@@ -132,8 +141,9 @@ std::vector<SingularPlace> PartBasis::tip_places() const {
     if (tip.zone == known) continue;
     known = tip.zone;
     // modes live farther from the tip, where a bend is a small kink: not worth following exactly
-    const bool follows = std::any_of(
-        tips_.begin(), tips_.end(), [&](const TipShape& t) { return t.zone == known && !t.modes; });
+    const bool follows = std::any_of(tips_.begin(), tips_.end(), [&](const TipShape& t) {
+      return t.zone == known && !t.unknowns->has_modes();
+    });
     places.push_back({(known->frame.tip() - corner_).cwiseQuotient(size_),
                       follows ? known->frame.bends() : std::vector<double>()});
   }

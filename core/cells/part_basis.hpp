@@ -42,7 +42,8 @@ struct BasisContext {
 };
 
 /// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq.
-/// 4-5, in the basis of pieces); cells with mode functions have b = sum over modes of V_l k_i. A
+/// 4-5, in the basis of pieces). Of b the unknowns are the coefficients of functions that are
+/// orthonormal in the cell; cells with mode functions have b = sum over modes of V_l k_i. A
 /// piece on one side of the crack takes F_l(x_i) as continued from there: else the functions would
 /// be nearly a multiple of N_i chi_(i,p) on the side where the node is not.
 class PartBasis {
@@ -67,8 +68,7 @@ class PartBasis {
   struct TipShape {
     std::size_t corner;
     const TipZone* zone;
-    LocalId first;
-    bool modes;
+    const TipUnknowns* unknowns;
     FaceSide side;                  ///< of the piece
     std::array<double, 4> at_node;  ///< as seen from there
   };
