@@ -35,13 +35,18 @@ int measure(int nx, int cracks, int tips, int runs) {
   int cold_iterations = 0, warm_iterations = 0;
   std::int64_t all = 0, factors = 0;
   double unknowns = 0.0;
+  const std::int64_t empty = peak_memory_bytes();
+  std::int64_t cold_peak = 0, peak = 0;
   for (int run = 0; run < runs; ++run) {
     Stopwatch watch;
     Model model(spec, alone, Partitioner());
     model.build_stiffness();
     cold_iterations = find_equilibrium(model, *make_solver(model), 1.0).solver.iterations;
     cold.push_back(watch.seconds());
-    if (run == 0) first = cold.back();
+    if (run == 0) {
+      first = cold.back();
+      cold_peak = peak_memory_bytes();
+    }
     unknowns = double(model.unknowns().owned());
     all = model.hierarchy().factors().made();
 
@@ -53,10 +58,12 @@ int measure(int nx, int cracks, int tips, int runs) {
     warm.push_back(watch.seconds());
     ratio.push_back(warm.back() / cold.back());
     factors = model.hierarchy().factors().made();
+    if (run == 0) peak = peak_memory_bytes();
   }
-  std::printf("%d,%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%.0f,%.0f,%.3f,%.4f\n", nx, cracks, tips,
-              unknowns, runs, median(cold), cold_iterations, median(set_up), median(warm),
-              warm_iterations, double(all), double(factors), median(ratio), first);
+  std::printf("%d,%d,%d,%.0f,%d,%.4f,%d,%.4f,%.4f,%d,%.0f,%.0f,%.3f,%.4f,%.1f,%.1f\n", nx, cracks,
+              tips, unknowns, runs, median(cold), cold_iterations, median(set_up), median(warm),
+              warm_iterations, double(all), double(factors), median(ratio), first,
+              double(cold_peak - empty) / unknowns, double(peak - empty) / unknowns);
   return 0;
 }
 
@@ -68,7 +75,7 @@ int main(int argc, char** argv) {
   if (argc < 4) {
     std::puts(
         "nx,cracks,tips,unknowns,runs,cold_s,cold_iterations,set_up_s,cycle_s,cycle_iterations,"
-        "windows,windows_factored,ratio,first_s");
+        "windows,windows_factored,ratio,first_s,cold_bytes,bytes");
     return argc == 1 ? 0 : 2;
   }
   return cdca::benchmarks::measure(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]),

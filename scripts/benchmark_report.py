@@ -108,10 +108,10 @@ def kernels(rows):
 def growth(rows):
     body = [[elements(r["nx"]), f"{r['cracks']:.0f}", f"{r['tips']:.0f}", f"{1e3 * r['first_s']:.0f}",
              f"{1e3 * r['cold_s']:.0f}", f"{r['cold_iterations']:.0f}", f"{1e3 * r['set_up_s']:.0f}", f"{1e3 * r['cycle_s']:.0f}",
-             f"{r['cycle_iterations']:.0f}", f"{r['windows_factored']:.0f} of {r['windows']:.0f}", f"{r['ratio']:.3f}"]
-            for r in rows]
+             f"{r['cycle_iterations']:.0f}", f"{r['windows_factored']:.0f} of {r['windows']:.0f}", f"{r['ratio']:.3f}",
+             f"{r['cold_bytes']:.0f}", f"{r['bytes']:.0f}"] for r in rows]
     text = table(["elements", "cracks", "tips that grow", "first of the process, ms", "cold, ms", "iterations", "set-up of the cycle, ms", "cycle, ms",
-                  "iterations", "windows factored anew", "ratio"], body)
+                  "iterations", "windows factored anew", "ratio", "peak memory per unknown, cold, bytes", "with growth, bytes"], body)
     return text + "\n\n" + bars(*((f"growth cycle against cold, {r['cracks']:.0f} cracks, {r['tips']:.0f} tips",
                                    "at most 0.6", f"{r['ratio']:.3f}", r["ratio"] <= 0.6) for r in rows))
 

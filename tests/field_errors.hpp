@@ -32,8 +32,8 @@ inline FieldErrors errors_of(const Model& model, const ExactField& exact,
     for (const Vec2& x : singular) places.push_back({grid.to_grid(x) - Vec2(e.i, e.j), {}});
     for (int part = 0; part < model.cuts().parts(e); ++part) {
       const PartBasis basis(model.basis(), e, part);
-      for (const auto& q :
-           tip_quadrature(model.cuts().find(e), part, places, grid.element_size(), 8)) {
+      for (const auto& q : tip_quadrature(model.cuts().find(e), part, places, grid.element_size(),
+                                          orders_of_loads)) {
         basis.evaluate(q.at, functions);
         const FieldValue u = field_value(functions, model.state());
         const Vec2 x = grid.from_grid(Vec2(e.i, e.j) + q.at);

@@ -75,19 +75,18 @@ struct Side {
   }
 };
 
-/// Numbers of points along a ray and between rays.
+/// The same for one part.
 struct Orders {
-  int along;
-  int least_across;
+  int along, least_across;
+  double digits;
 };
 
 /// Rays over a range of Side::place_of, in which lengths of rays have poles at i pi / 2: Gauss
 /// points gain the same factor with every one of them.
 int points_across(double range, const Orders& orders) {
-  constexpr double digits = 15.0;
   const double gained =
       2 * std::log10(std::numbers::pi / range + std::hypot(std::numbers::pi / range, 1.0));
-  return std::max(orders.least_across, int(std::ceil(digits / gained)));
+  return std::max(orders.least_across, int(std::ceil(orders.digits / gained)));
 }
 
 /// Directions in which rays meet corners, and where circles on which functions have a kink meet
@@ -245,14 +244,14 @@ const Vec2* tip_in_corner(const Loop& loop, const std::vector<SingularPlace>& ti
 
 std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
                                             const std::vector<SingularPlace>& tips, const Vec2& h,
-                                            int along) {
-  if (tips.empty()) return smooth_quadrature(cut, part, along);
+                                            const TipOrders& wanted) {
+  if (tips.empty()) return smooth_quadrature(cut, part, wanted.along);
   // lengths that count near a tip are metres; the larger side of the element is the unit
   const double unit = h.maxCoeff();
   const Vec2 scale = h / unit;
   std::vector<SingularPlace> near;
   double nearest = 1e300;
-  Orders orders{along, 4};
+  bool others_too = tips.size() > 1;  // functions of one tip on rays of another
   for (const SingularPlace& tip : tips) {
     SingularPlace scaled{tip.at.cwiseProduct(scale), {}};
     const Vec2 far = scaled.at.cwiseAbs().cwiseMax((scale - scaled.at).cwiseAbs());
@@ -260,11 +259,11 @@ std::vector<QuadraturePoint> tip_quadrature(const CutElement* cut, int part,
       if (r < far.norm() * unit) scaled.bends.push_back(r / unit);
     }
     nearest = std::min(nearest, (scaled.at - 0.5 * scale).norm());
-    if (!scaled.bends.empty()) orders = {std::max(along, 8), 8};  // angles change along rays
+    if (!scaled.bends.empty()) others_too = true;  // angles change along rays
     near.push_back(std::move(scaled));
   }
-  if (tips.size() > 1)
-    orders = {std::max(along, 9), 9};  // rays of one tip, functions of another too
+  const Orders orders{others_too ? std::max(wanted.along, wanted.with_others) : wanted.along,
+                      others_too ? wanted.with_others : 4, wanted.digits};
   const bool whole = !cut || cut->polygons.size() == 1;
   const bool bent = std::any_of(near.begin(), near.end(),
                                 [](const SingularPlace& tip) { return !tip.bends.empty(); });

@@ -217,15 +217,23 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
   return zone;
 }
 
-/// Takes the modes from cells that more than `most` tips want to give theirs to.
-void leave_crowded_cells(std::vector<TipZone>& zones, int most) {
-  std::unordered_map<GlobalId, int> tips;
+/// Leaves cells the modes of the `most` tips that are nearest to them, and of all just as near.
+void leave_crowded_cells(const StructuredGrid& grid, std::vector<TipZone>& zones, int most) {
+  const auto distance = [&grid](const TipZone& zone, GlobalId n) {
+    return (grid.node_position(grid.node_index(n)) - zone.frame.tip()).norm();
+  };
+  std::unordered_map<GlobalId, std::vector<double>> wanted;
   for (const TipZone& zone : zones) {
-    for (const GlobalId n : zone.nodes) ++tips[n];
-    for (const GlobalId n : zone.with_modes) ++tips[n];
+    for (const GlobalId n : zone.nodes) wanted[n].push_back(distance(zone, n));
+    for (const GlobalId n : zone.with_modes) wanted[n].push_back(distance(zone, n));
   }
+  for (auto& [n, tips] : wanted) std::sort(tips.begin(), tips.end());
   for (TipZone& zone : zones) {
-    std::erase_if(zone.with_modes, [&](GlobalId n) { return tips[n] > most; });
+    std::erase_if(zone.with_modes, [&](GlobalId n) {
+      const auto& tips = wanted[n];
+      return int(tips.size()) > most &&
+             distance(zone, n) > (1 + 1e-9) * tips[std::size_t(most - 1)];
+    });
     zone.nodes.insert(zone.with_modes.begin(), zone.with_modes.end());
   }
 }
@@ -238,7 +246,7 @@ std::vector<TipZone> find_tip_zones(const ElementCuts& cuts, const std::vector<C
   for (const PathTip& tip : cuts.paths().tips()) {
     zones.push_back(make_zone(cuts, cracks[std::size_t(tip.crack)], tip, rule));
   }
-  leave_crowded_cells(zones, rule.most_tips);
+  leave_crowded_cells(cuts.grid(), zones, rule.most_tips);
   return zones;
 }
 

@@ -40,8 +40,8 @@ struct ZoneRule {
   /// tip yet take its fields of modes I and II.
   double little_room = 4.0;
   double reach_with_little_room = 5.0;
-  /// Cells that more tips than this want to give their fields to take none of these fields: where
-  /// tips crowd so, they would be many unknowns, and elements resolve little anyway.
+  /// Cells that more tips than this want to give their fields to take those of the nearest, and of
+  /// any just as near: where tips crowd, all of them would be many unknowns for no better K.
   int most_tips = 2;
 };
 

@@ -74,9 +74,10 @@ void add_body_force(const BasisContext& c, const std::function<Vec2(const Vec2&)
     const CutElement* cut = c.cuts.find(e);
     for (int part = 0; part < c.cuts.parts(e); ++part) {
       const PartBasis basis(c, e, part);
-      const auto points = basis.has_tip_functions() ? tip_quadrature(cut, part, basis.tip_places(),
-                                                                     grid.element_size(), 8)
-                                                    : smooth_quadrature(cut, part, 3);
+      const auto points =
+          basis.has_tip_functions()
+              ? tip_quadrature(cut, part, basis.tip_places(), grid.element_size(), orders_of_loads)
+              : smooth_quadrature(cut, part, 3);
       for (const QuadraturePoint& q : points) {
         const Vec2 x = grid.from_grid(Vec2(e.i, e.j) + q.at);
         collector.add(basis, q.at, q.weight * grid.element_size().prod() * body(x));

@@ -83,9 +83,10 @@ class ElementSum {
     auto places = bases_[part].tip_places();
     for (SingularPlace& place : places) place.bends.clear();
     const bool whole = !cut || cut->polygons.size() == 1;
-    const auto points = places.empty() || (whole && !any_near(places, grid_.element_size()))
-                            ? smooth_quadrature(cut, int(part), 6)
-                            : tip_quadrature(cut, int(part), places, grid_.element_size(), 8);
+    const auto points =
+        places.empty() || (whole && !any_near(places, grid_.element_size()))
+            ? smooth_quadrature(cut, int(part), 6)
+            : tip_quadrature(cut, int(part), places, grid_.element_size(), orders_of_intensities);
     for (const QuadraturePoint& point : points) {
       const Vec2 x = grid_.from_grid(corner_ + point.at);
       const double r = domain_.zone.frame.local(x).norm();

@@ -82,8 +82,8 @@ class TipIntegral {
   void add_body_force(GridIndex e, const DomainWeight& q, double m[2]) const {
     if (!loads_.body) return;
     for (int part = 0; part < c_.cuts.parts(e); ++part) {
-      for (const QuadraturePoint& point :
-           tip_quadrature(c_.cuts.find(e), part, {tip_in(e)}, grid_.element_size(), 8)) {
+      for (const QuadraturePoint& point : tip_quadrature(c_.cuts.find(e), part, {tip_in(e)},
+                                                         grid_.element_size(), orders_of_loads)) {
         const Vec2 x = grid_.from_grid(Vec2(e.i, e.j) + point.at);
         const double w = point.weight * grid_.element_size().prod() * q.value(point.at);
         take_off(x, FaceSide::none, w, axes_ * loads_.body(x), m);

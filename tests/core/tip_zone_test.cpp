@@ -72,7 +72,7 @@ TEST(TipZoneTest, CellsTakeModesWhereThereIsLittleRoom) {
                   .with_modes.empty());
 }
 
-TEST(TipZoneTest, CellsTakeNoModesWhereTipsCrowd) {
+TEST(TipZoneTest, CellsTakeTheModesOfTheNearestTipsWhereTheyCrowd) {
   std::vector<std::vector<Vec2>> cracks;
   for (int k = 0; k < 2; ++k) cracks.push_back({{4.1, 14.6 + 2 * k}, {14.4, 14.6 + 2 * k}});
   const auto two = zones_of(cracks, {0.0, 2.0});
@@ -80,10 +80,27 @@ TEST(TipZoneTest, CellsTakeNoModesWhereTipsCrowd) {
   cracks.push_back({{14.4, 16.8}, {14.4, 25.1}});
   const auto three = zones_of(cracks, {0.0, 2.0});
   const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
-  EXPECT_TRUE(two.at(3).with_modes.count(grid.node({13, 18})));
-  EXPECT_FALSE(three.at(3).with_modes.count(grid.node({13, 18})));
+  // the tips of zones 1, 3 and 4 are in reach of both nodes
+  const GlobalId above = grid.node({16, 16}), below = grid.node({16, 14});
+  EXPECT_TRUE(two.at(1).with_modes.count(above));
+  EXPECT_FALSE(three.at(1).with_modes.count(above));
+  EXPECT_TRUE(three.at(3).with_modes.count(above));
+  EXPECT_TRUE(three.at(4).with_modes.count(above));
+  EXPECT_TRUE(three.at(1).with_modes.count(below));
+  EXPECT_TRUE(three.at(3).with_modes.count(below));
+  EXPECT_FALSE(three.at(4).with_modes.count(below));
   // the other ends are as before
   EXPECT_EQ(three.at(2).with_modes, two.at(2).with_modes);
+}
+
+/// Lest the mirrored problem had another answer.
+TEST(TipZoneTest, CellsTakeTheModesOfAllTipsThatAreJustAsNear) {
+  const auto star = zones_of(
+      {{{4, 15}, {13, 15}}, {{26, 15}, {17, 15}}, {{15, 4}, {15, 13}}, {{15, 26}, {15, 17}}},
+      {0.0, 2.0});
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  for (const std::size_t inner : {1U, 3U, 5U, 7U})
+    EXPECT_TRUE(star.at(inner).nodes.count(grid.node({15, 15})));
 }
 
 }  // namespace

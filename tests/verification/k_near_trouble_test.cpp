@@ -257,6 +257,59 @@ TEST(SlowRandomNeighbours, NearlyAllAsOnTheFinerGrid) {
 /// The largest error is printed only: it is of tips with next to no K left.
 TEST(SlowRandomNeighbours, OneAndAHalfElementsAway) { check_random_neighbours(11, 100, 1.5, 1.5); }
 
+/// Do the cracks keep this distance (elements) from each other?
+bool are_apart(const Layout& cracks, double distance) {
+  constexpr int places = 200;
+  for (std::size_t a = 0; a < cracks.size(); ++a) {
+    for (std::size_t b = 0; b < cracks.size(); ++b) {
+      for (int k = 0; a != b && k <= places; ++k) {
+        const Vec2 at = cracks[a][0] + double(k) / places * (cracks[a][1] - cracks[a][0]);
+        const Vec2 foot = cracks[b][0] + nearest_fraction(cracks[b][0], cracks[b][1], at) *
+                                             (cracks[b][1] - cracks[b][0]);
+        if ((foot - at).norm() < distance * h) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Cracks from any sides that end within a few elements of one place, where their tips want the
+/// same cells.
+class SlowCrowdedTips : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(SlowCrowdedTips, NearlyAllAsOnTheFinerGrid) {
+  constexpr std::size_t count = 30;
+  std::mt19937 random(3);
+  const auto any = [&random](double from, double to) {
+    return from + (to - from) * (double(random()) / double(std::mt19937::max()));
+  };
+  std::vector<double> errors;
+  while (errors.size() < GetParam() * count) {
+    Layout cracks;
+    const Vec2 middle(any(0, 1), any(0, 1));
+    for (std::size_t k = 0; k < GetParam(); ++k) {
+      const Vec2 tip = h * (middle + Vec2(any(-2, 2), any(-2, 2)));
+      cracks.push_back({tip + any(0.3, 0.6) * direction(any(0, 360)), tip});
+    }
+    if (!are_apart(cracks, 1.2)) continue;
+    const auto fine = tips_on(cracks, biaxial, 4), rough = tips_on(cracks, biaxial, 1);
+    for (std::size_t k = 1; k < fine.size(); k += 2) {
+      const double size = std::hypot(fine[k].k1, fine[k].k2);
+      errors.push_back(
+          std::max(std::abs(rough[k].k1 - fine[k].k1), std::abs(rough[k].k2 - fine[k].k2)) / size);
+      std::cout << fine[k].k1 << ", " << fine[k].k2 << " off by " << 100 * errors.back() << " %\n";
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  const auto over = errors.end() - std::upper_bound(errors.begin(), errors.end(), bar);
+  std::cout << "median " << 100 * errors[errors.size() / 2] << " %, largest " << 100 * errors.back()
+            << " %, over the bar " << over << "\n";
+  EXPECT_LT(errors[errors.size() / 2], 0.01);
+  EXPECT_LE(over, std::ptrdiff_t(errors.size() / 20));
+}
+INSTANTIATE_TEST_SUITE_P(Tips, SlowCrowdedTips, ::testing::Values(3, 4, 5),
+                         [](const auto& test) { return std::to_string(test.param); });
+
 std::string name_of_zone(const ::testing::TestParamInfo<double>& reach) {
   return reach.param == 0.0 ? "tip_element_only" : "wide_zone";
 }
