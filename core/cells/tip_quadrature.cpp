@@ -13,7 +13,8 @@ namespace {
 
 using Loop = std::vector<Vec2>;
 
-constexpr double same_place = 1e-7;
+constexpr double same_place = 1e-7;  ///< as a corner of a polygon
+constexpr double nothing = 1e-10;
 
 double twice_area(const Loop& loop) {
   double sum = 0.0;
@@ -60,7 +61,7 @@ struct Side {
     if (normal.dot(a) < 0) normal = -normal;
     distance = normal.dot(a);
   }
-  bool passes_tip() const { return distance < 1e-10; }
+  bool passes_tip() const { return distance < nothing; }
   bool meets(const Vec2& ray) const {
     return (cross(ray, from) > 0) != (cross(ray, to) > 0) && normal.dot(ray) > 0;
   }
@@ -68,7 +69,8 @@ struct Side {
   double along(const Vec2& ray) const { return distance / normal.dot(ray); }
   /// The distance along a ray and the angle go smoothly with this, however near the tip is.
   double place_of(const Vec2& ray) const {
-    return std::asinh(cross(normal, ray) / normal.dot(ray));
+    constexpr double glancing = 1e-12;  // rounding may turn a ray along the side away from it
+    return std::asinh(cross(normal, ray) / std::max(normal.dot(ray), glancing));
   }
   Vec2 ray_to(double place) const {
     return (normal + std::sinh(place) * turned_left(normal)) / std::cosh(place);
@@ -109,7 +111,7 @@ std::vector<Vec2> directions_to_stop_at(const std::vector<Side>& sides,
     }
   }
   places.erase(std::remove_if(places.begin(), places.end(),
-                              [](const Vec2& p) { return p.norm() < same_place; }),
+                              [](const Vec2& p) { return p.norm() < nothing; }),
                places.end());
   const auto angle = [&axis](const Vec2& p) { return std::atan2(cross(axis, p), axis.dot(p)); };
   std::sort(places.begin(), places.end(),
@@ -136,6 +138,39 @@ void add_ray(const SingularPlace& tip, const Vec2& ray, double in, double out, d
   }
 }
 
+/// Rays between two directions, which begin at a side, or at the tip, and end at another side.
+struct Fan {
+  const Side* entry;  ///< null: at the tip
+  const Side* exit;
+
+  double range(const Side* side, const Vec2& first, const Vec2& last) const {
+    return side ? side->place_of(last) - side->place_of(first) : 0.0;
+  }
+  void add(const SingularPlace& tip, const Vec2& first, const Vec2& last, const Orders& orders,
+           std::vector<QuadraturePoint>& points) const {
+    const double by_entry = range(entry, first, last), by_exit = range(exit, first, last);
+    const Side* base = by_entry > by_exit ? entry : exit;
+    const double least = std::min(by_entry, by_exit), most = std::max(by_entry, by_exit);
+    const double start = base->place_of(first);
+    if (least > 1) {  // rays that suit the one side are too few for the other, each at its own end
+      const Vec2 middle = base->ray_to(start + 0.5 * most);
+      add(tip, first, middle, orders, points);
+      add(tip, middle, last, orders, points);
+      return;
+    }
+    const int pieces = std::max(1, int(std::ceil(most / 1.5)));
+    const double width = most / pieces;
+    for (int piece = 0; piece < pieces; ++piece) {
+      for (const GaussPoint& g : gauss_points(points_across(width + least, orders))) {
+        const double place = start + (piece + g.x) * width;
+        const Vec2 ray = base->ray_to(place);
+        add_ray(tip, ray, entry ? entry->along(ray) : 0.0, exit->along(ray),
+                g.weight * width / std::cosh(place), orders, points);
+      }
+    }
+  }
+};
+
 /// Points on rays from a tip that is not inside the convex loop.
 void add_rays(const Loop& loop, const SingularPlace& tip, const Orders& orders,
               std::vector<QuadraturePoint>& points) {
@@ -158,24 +193,8 @@ void add_rays(const Loop& loop, const SingularPlace& tip, const Orders& orders,
       if (!exit || side.along(middle) > exit->along(middle)) exit = &side;
       if (!entry || side.along(middle) < entry->along(middle)) entry = &side;
     }
-    if (!exit) continue;
-    const auto range = [&](const Side* s) {
-      return s->place_of(stops[k + 1]) - s->place_of(stops[k]);
-    };
-    if (entry == exit) entry = nullptr;  // the rays begin at the tip
-    const Side* base = entry && range(entry) > range(exit) ? entry : exit;
-    const double both = range(exit) + (entry ? range(entry) : 0.0);
-    const int pieces = std::max(1, int(std::ceil(both / 2)));
-    const int across = points_across(both / pieces, orders);
-    const double start = base->place_of(stops[k]), width = range(base) / pieces;
-    for (int piece = 0; piece < pieces; ++piece) {
-      for (const GaussPoint& g : gauss_points(across)) {
-        const double place = start + (piece + g.x) * width;
-        const Vec2 ray = base->ray_to(place);
-        add_ray(tip, ray, entry ? entry->along(ray) : 0.0, exit->along(ray),
-                g.weight * width / std::cosh(place), orders, points);
-      }
-    }
+    if (exit)
+      Fan{entry == exit ? nullptr : entry, exit}.add(tip, stops[k], stops[k + 1], orders, points);
   }
 }
 
@@ -225,7 +244,7 @@ void add_graded(const Loop& loop, const std::vector<SingularPlace>& tips, const 
     return;
   }
   const SingularPlace& tip = near == 0 && bent ? *bent : *nearest;
-  if (distance(loop, tip.at) > -same_place) return add_rays(loop, tip, orders, points);
+  if (distance(loop, tip.at) > -nothing) return add_rays(loop, tip, orders, points);
   for (std::size_t k = 0; k < loop.size(); ++k)
     add_rays({tip.at, loop[k], loop[(k + 1) % loop.size()]}, tip, orders, points);
 }

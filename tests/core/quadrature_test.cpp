@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <ostream>
+#include <random>
 #include <string>
 
 namespace cdca {
@@ -345,6 +346,37 @@ TEST(TipQuadratureOfABentCrack, SatisfiesTheDivergenceTheorem) {
       }
       EXPECT_LT((inside - outside).norm(), 1e-4) << e.i << ", " << e.j << ", part " << part;
     }
+  }
+}
+
+/// Wherever the tip is: in corners, on sides, in line with them, or next to nothing off any of
+/// these.
+TEST(TipQuadratureOfAnyTriangle, WeightsAddUpToItsArea) {
+  std::mt19937 engine(5);
+  const auto any = [&engine] { return double(engine()) / double(std::mt19937::max()); };
+  int tried = 0;
+  while (tried < 3000) {
+    const Loop t{{any(), any()}, {any(), any()}, {any(), any()}};
+    const double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]);
+    if (area < 1e-3) continue;
+    CutElement cut;
+    cut.parts = 2;
+    cut.polygons.resize(2);
+    cut.polygons[0].loop = t;
+    cut.polygons[1].part = 1;
+    const double along = 3 * any() - 1, off = std::pow(10.0, -16 * any());
+    const std::vector<Vec2> places{
+        t[0] + off * Vec2(any() - 0.5, any() - 0.5), t[0] + along * (t[1] - t[0]),
+        t[0] + along * (t[1] - t[0]) + off * Vec2(any() - 0.5, any() - 0.5)};
+    for (const Vec2& tip : places) {
+      double sum = 0.0;
+      for (const QuadraturePoint& q : tip_quadrature(&cut, 0, {{tip, {0.3 * any()}}}, Vec2(1, 1))) {
+        EXPECT_GE(q.weight, 0.0);
+        sum += q.weight;
+      }
+      EXPECT_NEAR(sum, area, 1e-9) << tip.transpose();
+    }
+    ++tried;
   }
 }
 
