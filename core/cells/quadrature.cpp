@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace cdca {
 
@@ -14,7 +13,6 @@ namespace {
 using Triangle = std::array<Vec2, 3>;
 
 const std::vector<Vec2> unit_square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-constexpr double same_place = 1e-7;
 
 double twice_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
@@ -72,7 +70,7 @@ std::vector<std::array<Vec2, 3>> triangulate(std::vector<Vec2> loop, const Vec2*
   std::vector<Triangle> triangles;
   if (apex) {
     std::size_t first = 0;
-    while (first < loop.size() && (loop[first] - *apex).norm() >= same_place) ++first;
+    while (first < loop.size() && (loop[first] - *apex).norm() >= same_corner) ++first;
     if (first < loop.size()) {
       std::rotate(loop.begin(), loop.begin() + std::ptrdiff_t(first), loop.end());
       bool fan = true;

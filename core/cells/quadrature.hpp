@@ -25,6 +25,9 @@ std::vector<QuadraturePoint> plain_quadrature(const CutElement* cut, int part);
 /// n x n Gauss points on every triangle of a part; for smooth integrands that are no polynomials.
 std::vector<QuadraturePoint> smooth_quadrature(const CutElement* cut, int part, int n);
 
+/// A place so near to a corner of a polygon, inside-the-element coordinates, is that corner.
+constexpr double same_corner = 1e-7;
+
 /// Splits a simple counter-clockwise polygon into triangles of its corners; from `apex` (a corner)
 /// as a fan where that is possible.
 std::vector<std::array<Vec2, 3>> triangulate(std::vector<Vec2> loop, const Vec2* apex = nullptr);

@@ -13,7 +13,6 @@ namespace {
 
 using Loop = std::vector<Vec2>;
 
-constexpr double same_place = 1e-7;  ///< as a corner of a polygon
 constexpr double nothing = 1e-10;
 
 double twice_area(const Loop& loop) {
@@ -253,7 +252,7 @@ void add_graded(const Loop& loop, const std::vector<SingularPlace>& tips, const 
 const Vec2* tip_in_corner(const Loop& loop, const std::vector<SingularPlace>& tips) {
   for (const SingularPlace& tip : tips) {
     for (const Vec2& p : loop) {
-      if ((p - tip.at).norm() < same_place) return &tip.at;
+      if ((p - tip.at).norm() < same_corner) return &tip.at;
     }
   }
   return nullptr;
@@ -312,8 +311,8 @@ std::vector<QuadraturePoint> line_quadrature(const Vec2& from, const Vec2& to,
   const auto add = [&](auto&& self, double a, double b, int depth) -> void {
     double gap = 1e300;
     for (const SingularPlace& tip : tips) {
-      const bool at_a = (at(a) - tip.at).norm() < same_place;
-      const bool at_b = (at(b) - tip.at).norm() < same_place;
+      const bool at_a = (at(a) - tip.at).norm() < same_corner;
+      const bool at_b = (at(b) - tip.at).norm() < same_corner;
       if (at_a || at_b) {
         for (const GaussPoint& g : gauss_points(12)) {
           const double s = g.x * g.x;

@@ -23,7 +23,8 @@ struct TipOrders {
   int with_others = 9;
   double digits = 15;  ///< to which the space between rays is integrated
 };
-/// For intensities: what they miss is far below what the grid does.
+/// For intensities, which pass over kinks: beside a bend of the crack two elements behind its tip
+/// they miss 1e-4 of K, elsewhere less. The grid misses more.
 constexpr TipOrders orders_of_intensities{6, 6, 8};
 /// For loads that vary in space.
 constexpr TipOrders orders_of_loads{8, 9, 15};

@@ -56,10 +56,12 @@ TEST(TipFunctions, AreOrthonormalInEveryCellAwayFromTheCrack) {
   EXPECT_GT(cells, 500);
 }
 
+/// Near the tip, on the rim, and as far away as no zone reaches.
 TEST(TipFunctions, SpanThoseOfTheEquation) {
-  const StructuredGrid grid(Vec2(0, 0), Vec2(41, 41), 41, 41);
+  const StructuredGrid grid(Vec2(0, 0), Vec2(3000, 41), 3000, 41);
   const TipFrame frame({Vec2(20.3, 20.7), Vec2(12, 20.4), Vec2(0, 25)}, false);
-  for (const GridIndex node : {GridIndex{20, 20}, {21, 22}, {18, 21}, {0, 41}, {40, 3}}) {
+  for (const GridIndex node :
+       {GridIndex{20, 20}, {21, 22}, {18, 21}, {0, 41}, {40, 3}, {1000, 9}, {3000, 41}}) {
     const Eigen::Matrix4d t = orthonormal_tip_functions(grid, node, frame);
     ASSERT_TRUE(t.allFinite());
     const Eigen::JacobiSVD<Eigen::Matrix4d> values(t);
