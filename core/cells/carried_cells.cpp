@@ -4,6 +4,7 @@
 #include "core/base/sort_once.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace cdca {
@@ -51,6 +52,24 @@ std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vec
   return changed;
 }
 
+std::vector<GlobalId> with_other_sides(std::vector<GlobalId> elements, const ElementCuts& cuts) {
+  sort_once(elements);
+  std::vector<GlobalId> all = elements;
+  const StructuredGrid& grid = cuts.grid();
+  for (const GlobalId id : cuts.touched_elements()) {
+    for (const CrackFace& face : cuts.faces_of(grid.element_index(id))) {
+      const std::array<GlobalId, 3> coupled{id, grid.element(face.plus_element),
+                                            grid.element(face.minus_element)};
+      const bool any = std::any_of(coupled.begin(), coupled.end(), [&](GlobalId e) {
+        return std::binary_search(elements.begin(), elements.end(), e);
+      });
+      if (any) all.insert(all.end(), coupled.begin(), coupled.end());
+    }
+  }
+  sort_once(all);
+  return all;
+}
+
 std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements,
                                  const StructuredGrid& grid) {
   const StructuredGrid coarser = grid.coarser();
@@ -69,15 +88,17 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
                            const std::vector<double>& springs)
     : before_(before),
       changed_(std::move(changed)),
-      same_(std::size_t(mesh.node_count()), 1),
+      same_rows_(std::size_t(mesh.node_count()), 1),
+      same_(same_rows_),
       now_(std::size_t(unknowns_before.count()), -1) {
   mark_corners(mesh, unknowns);
   carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
   mark_zones(unknowns);
+  for (std::size_t n = 0; n < same_.size(); ++n) same_[n] = same_[n] && same_rows_[n];
 }
 
 void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
-  mesh.for_nodes_round(node, [&](LocalId n) { same_[std::size_t(n)] = 0; });
+  mesh.for_nodes_round(node, [&](LocalId n) { same_rows_[std::size_t(n)] = 0; });
 }
 
 void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns) {
@@ -85,7 +106,7 @@ void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unkno
     for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
       const LocalId n = mesh.find_node(corner);
       if (n < 0) continue;
-      same_[std::size_t(n)] = 0;
+      same_rows_[std::size_t(n)] = 0;
       // on which side of the crack its near-tip functions are seen may show in all of its elements
       if (!unknowns.tips(n).empty()) differs_round(mesh, n);
     }
@@ -95,21 +116,24 @@ void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unkno
 void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                                   const CellUnknowns& unknowns, const std::vector<char>& held,
                                   const std::vector<double>& springs) {
-  std::vector<char> was_held(now_.size(), 0), was_sprung(now_.size(), 0);
+  std::vector<char> was_held(now_.size(), 0);
+  std::vector<double> share_before(now_.size(), 0.0);
   for (const LocalId u : before_.held()) was_held[std::size_t(u)] = 1;
-  for (const auto& [u, spring] : before_.springs()) was_sprung[std::size_t(u)] = 1;
-  const auto carry = [&](LocalId from, LocalId to, LocalId count) {
+  for (const CellStiffness::Spring& s : before_.springs())
+    share_before[std::size_t(s.unknown)] = s.share;
+  const auto carry = [&](LocalId n, LocalId from, LocalId to, LocalId count) {
     bool alike = true;
     for (LocalId k = 0; k < count; ++k) {
       const auto u = std::size_t(from + k), v = std::size_t(to + k);
       now_[u] = to + k;
-      alike = alike && was_held[u] == held[v] && !was_sprung[u] &&
-              (springs.empty() || springs[v] == 0.0);
+      alike = alike && was_held[u] == held[v];
+      if (share_before[u] != (springs.empty() ? 0.0 : springs[v])) same_[std::size_t(n)] = 0;
     }
     return alike;
   };
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
-    if (!carry(unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2)) differs_round(mesh, n);
+    if (!carry(n, unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2))
+      differs_round(mesh, n);
   }
   const auto forget = [&](LocalId n) {
     for (const LocalId u : unknowns_before.of_cell(n)) now_[std::size_t(u)] = -1;
@@ -121,9 +145,9 @@ void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unk
       forget(n);
       continue;
     }
-    bool alike = carry(was.extra, is->extra, 2 * (was.pieces.count - 1));
+    bool alike = carry(n, was.extra, is->extra, 2 * (was.pieces.count - 1));
     for (std::size_t k = 0; k < was.tips.size(); ++k)
-      alike = carry(was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
+      alike = carry(n, was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
     if (!alike) differs_round(mesh, n);
   }
   for (const LocalId n : unknowns.special_nodes()) {
@@ -142,9 +166,9 @@ void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
     found = false;
     for (const auto& [number, nodes] : zones) {
       const auto kept =
-          std::count_if(nodes.begin(), nodes.end(), [&](LocalId n) { return same(n); });
+          std::count_if(nodes.begin(), nodes.end(), [&](LocalId n) { return same_rows(n); });
       if (kept == 0 || kept == std::ptrdiff_t(nodes.size())) continue;
-      for (const LocalId n : nodes) same_[std::size_t(n)] = 0;
+      for (const LocalId n : nodes) same_rows_[std::size_t(n)] = 0;
       found = true;
     }
   }

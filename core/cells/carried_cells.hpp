@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a growth cycle leaves as it was on one scale.
+/// What growing cracks and turning springs leave as it was on one scale.
 #pragma once
 
 #include "core/cells/cell_stiffness.hpp"
@@ -13,32 +13,39 @@ std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vec
                                        const ElementCuts& after,
                                        const std::vector<TipZone>& zones_after);
 
+/// Adds the elements that faces couple to these: springs there answer to the functions of both
+/// sides.
+std::vector<GlobalId> with_other_sides(std::vector<GlobalId> elements, const ElementCuts& cuts);
+
 /// The elements twice as large that hold them, in order of id.
 std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements, const StructuredGrid& grid);
 
-/// The cells of a scale before and after growth: which stiffness can be taken over, and under what
-/// numbers. Faces must not have springs. Borrows the cells of before.
+/// The cells of a scale before and after cracks have grown or springs of faces have turned: which
+/// stiffness can be taken over, and under what numbers. Borrows the cells of before.
 class CarriedCells {
  public:
-  /// held, springs: of the new unknowns, as for CellStiffness.
+  /// changed: elements whose stiffness is not what it was. held, springs: of the new unknowns, as
+  /// for CellStiffness.
   CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                const CellStiffness& before, const CellUnknowns& unknowns,
                std::vector<GlobalId> changed, const std::vector<char>& held,
                const std::vector<double>& springs);
 
-  /// All that the stiffness of a cell depends on is what it was.
+  /// All that the stiffness of a cell depends on is what it was,
   bool same(LocalId node) const { return same_[std::size_t(node)] != 0; }
+  /// but perhaps for weak springs.
+  bool same_rows(LocalId node) const { return same_rows_[std::size_t(node)] != 0; }
   /// The number of an old unknown of a cell that has the unknowns that it had, else -1. Numbers
   /// keep their order.
   LocalId now(LocalId unknown) const { return now_[std::size_t(unknown)]; }
-  const StiffnessRows& rows() const { return before_.rows(); }
+  const CellStiffness& before() const { return before_; }
   const std::vector<GlobalId>& changed() const { return changed_; }
 
  private:
   /// Corners of elements that have changed differ.
   void mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns);
   /// Numbers of unknowns; cells that have others, or are held otherwise, differ, and so do those
-  /// round them.
+  /// round them; cells with other weak springs differ, but not in their rows.
   void carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                       const CellUnknowns& unknowns, const std::vector<char>& held,
                       const std::vector<double>& springs);
@@ -48,7 +55,7 @@ class CarriedCells {
 
   const CellStiffness& before_;
   std::vector<GlobalId> changed_;
-  std::vector<char> same_;  ///< by node
+  std::vector<char> same_rows_, same_;  ///< by node
   std::vector<LocalId> now_;
 };
 

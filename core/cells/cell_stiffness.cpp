@@ -177,16 +177,16 @@ void CellStiffness::add_springs(const std::vector<double>& springs) {
     if (u >= owned_ || springs[std::size_t(u)] == 0.0) continue;
     for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
       if (rows_.column[k] != u) continue;
-      springs_.emplace_back(u, rows_.value[k] * springs[std::size_t(u)]);
-      rows_.value[k] += springs_.back().second;
+      springs_.push_back({u, springs[std::size_t(u)], rows_.value[k]});
+      rows_.value[k] += springs_.back().stiffness();
     }
   }
 }
 
 void CellStiffness::add_spring_forces(std::span<const double> displacements,
                                       std::span<double> forces, double share) const {
-  for (const auto& [u, spring] : springs_)
-    forces[std::size_t(u)] += share * spring * displacements[std::size_t(u)];
+  for (const Spring& s : springs_)
+    forces[std::size_t(s.unknown)] += share * s.stiffness() * displacements[std::size_t(s.unknown)];
 }
 
 void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,

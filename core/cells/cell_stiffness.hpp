@@ -58,8 +58,15 @@ class CellStiffness final : public CellSystem {
   const StiffnessRows& rows() const { return rows_; }
   /// Own unknowns that supports hold, ascending.
   const std::vector<LocalId>& held() const { return held_; }
-  /// Of own unknowns with weak springs: what these add to their stiffness, Pa.
-  const std::vector<std::pair<LocalId, double>>& springs() const { return springs_; }
+  /// A weak spring of an own unknown.
+  struct Spring {
+    LocalId unknown;
+    double share;    ///< of the unknown's own stiffness
+    double without;  ///< its own stiffness, Pa
+    double stiffness() const { return share * without; }
+  };
+  /// In order of unknowns.
+  const std::vector<Spring>& springs() const { return springs_; }
   /// Cells that use the common stencil.
   std::int64_t regular_cells() const { return regular_.cells(); }
   std::int64_t own_row_entries() const { return std::int64_t(rows_.value.size()); }
@@ -99,8 +106,8 @@ class CellStiffness final : public CellSystem {
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;
-  std::vector<std::pair<LocalId, double>> springs_;  ///< by own unknown, Pa
-  int colour_ = 0;                                   ///< ranks of one colour share no element
+  std::vector<Spring> springs_;
+  int colour_ = 0;  ///< ranks of one colour share no element
   int colours_ = 1;
 };
 

@@ -204,6 +204,15 @@ FaceSpots::FaceSpots(const BasisContext& context, const CrackFace& face,
     : geometry_(context.cuts, face, elastic) {
   const FaceBasis basis(context, face, elastic);
   for (const FaceStretch& s : stretches) spots_.push_back(basis.spot(s.from, s.to));
+  if (geometry_.uses_stress || spots_.empty()) return;
+  // functions of cells off the grid line that the face lies on do not show on it
+  for (std::size_t f = spots_.front().functions.size(); f-- > 0;) {
+    const auto at = [f](FaceSpot& s) { return s.functions.begin() + std::ptrdiff_t(f); };
+    const bool seen = std::any_of(spots_.begin(), spots_.end(),
+                                  [&](FaceSpot& s) { return !at(s)->jump.isZero(0.0); });
+    if (seen) continue;
+    for (FaceSpot& s : spots_) s.functions.erase(at(s));
+  }
 }
 
 PartStiffness FaceSpots::stiffness(const std::vector<FaceStretch>& springs) const {

@@ -15,6 +15,8 @@ struct FaceStretch {
   double to = 1.0;
   double normal = 0.0;      ///< Pa/m
   double tangential = 0.0;  ///< Pa/m
+
+  bool operator==(const FaceStretch&) const = default;
 };
 
 /// Who knows which springs act on a face.

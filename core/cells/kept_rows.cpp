@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/kept_rows.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace cdca {
@@ -21,7 +22,7 @@ void add_row(const StiffnessRows& from, std::size_t row, LocalId unknown, Stiffn
 KeptRows::KeptRows(const CarriedCells* carried, std::size_t count) : carried_(carried) {
   if (!carried) return;
   row_of_.assign(count, -1);
-  const auto& before = carried->rows().unknown;
+  const auto& before = carried->before().rows().unknown;
   kept_.assign(before.size(), 0);
   for (std::size_t r = 0; r < before.size(); ++r) {
     const LocalId u = carried->now(before[r]);
@@ -30,7 +31,7 @@ KeptRows::KeptRows(const CarriedCells* carried, std::size_t count) : carried_(ca
 }
 
 bool KeptRows::keep(LocalId node, const std::vector<LocalId>& unknowns) {
-  if (!carried_ || !carried_->same(node)) return false;
+  if (!carried_ || !carried_->same_rows(node)) return false;
   for (const LocalId u : unknowns) {
     if (row_of_[std::size_t(u)] < 0) return false;
   }
@@ -40,7 +41,9 @@ bool KeptRows::keep(LocalId node, const std::vector<LocalId>& unknowns) {
 
 StiffnessRows KeptRows::with(StiffnessRows made) const {
   if (!carried_) return made;
-  const StiffnessRows& before = carried_->rows();
+  const StiffnessRows& before = carried_->before().rows();
+  const auto& springs = carried_->before().springs();
+  auto spring = springs.begin();
   StiffnessRows all;
   std::size_t m = 0;
   const auto add_made = [&](LocalId end) {
@@ -55,6 +58,11 @@ StiffnessRows KeptRows::with(StiffnessRows made) const {
     add_row(before, r, unknown, all);
     for (std::size_t k = first; k < all.column.size(); ++k)
       all.column[k] = carried_->now(all.column[k]);
+    while (spring != springs.end() && spring->unknown < before.unknown[r]) ++spring;
+    if (spring == springs.end() || spring->unknown != before.unknown[r]) continue;
+    const auto at =
+        std::lower_bound(all.column.begin() + std::ptrdiff_t(first), all.column.end(), unknown);
+    all.value[std::size_t(at - all.column.begin())] = spring->without;
   }
   add_made(std::numeric_limits<LocalId>::max());
   return all;

@@ -25,6 +25,16 @@ bool slides(const ContactPatch& p) {
 
 }  // namespace
 
+std::vector<GlobalId> elements_with_other_springs(const SpringsOfElements& before,
+                                                  const SpringsOfElements& now) {
+  std::vector<GlobalId> found;
+  for (const auto& [id, springs] : now) {
+    const auto was = before.find(id);
+    if (was == before.end() || was->second != springs) found.push_back(id);
+  }
+  return found;
+}
+
 ContactPatches::ContactPatches(const ElementCuts& cuts, const std::vector<ContactSpec>& laws,
                                const std::vector<Crack>& cracks, const ContactPatches* previous)
     : laws_(laws), grid_(cuts.grid()) {
@@ -142,6 +152,18 @@ std::vector<FaceStretch> ContactPatches::on(GridIndex element, std::size_t face)
         {double(k) * share, double(k + 1) * share, p.now.normal_spring, p.now.tangential_spring});
   }
   return stretches;
+}
+
+SpringsOfElements ContactPatches::springs() const {
+  SpringsOfElements all;
+  for (const auto& [id, faces] : at_) {
+    auto& own = all[id];
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const auto stretches = on(grid_.element_index(id), k);
+      own.insert(own.end(), stretches.begin(), stretches.end());
+    }
+  }
+  return all;
 }
 
 std::vector<ContactAnswer> ContactPatches::answers_to(const std::vector<ContactGap>& gaps) const {

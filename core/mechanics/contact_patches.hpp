@@ -44,6 +44,12 @@ struct ContactGroup {
   double gap = 0.0;         ///< mean normal gap of the whole, m
 };
 
+/// The springs on faces, by the element that counts a face as its own.
+using SpringsOfElements = std::map<GlobalId, std::vector<FaceStretch>>;
+/// Elements that have faces with other springs than before, in order of id.
+std::vector<GlobalId> elements_with_other_springs(const SpringsOfElements& before,
+                                                  const SpringsOfElements& now);
+
 /// All patches, the same on every rank.
 class ContactPatches final : public FaceSprings {
  public:
@@ -60,6 +66,7 @@ class ContactPatches final : public FaceSprings {
     return laws_[std::size_t(patch.crack)];
   }
   std::vector<FaceStretch> on(GridIndex element, std::size_t face) const override;
+  SpringsOfElements springs() const;
   /// The patches of a face of an element, in order; a side has two.
   std::vector<std::size_t> of_face(GridIndex element, std::size_t face) const;
   /// For a restart: patches that were written down. Throws IoError where they do not fit.

@@ -37,7 +37,7 @@ void ContactSolves::once(const Accuracy& accuracy) {
 }
 
 void ContactSolves::build_stiffness(double weak) {
-  model_.build_stiffness(weak);
+  model_.renew_stiffness(weak);
   quickest_ = lost_ = 0;
 }
 

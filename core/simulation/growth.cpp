@@ -42,6 +42,28 @@ double next_turn(GrowthPlan& plan, const StressIntensity& k) {
   return plan.last_turn;
 }
 
+/// Turns the plans that are to be corrected, by K at their ends on trial. Does any still matter?
+bool turn_plans(const Model& model, double load_factor, std::vector<GrowthPlan>& plans) {
+  const auto is_corrected = [&](int crack, int end) {
+    return std::any_of(plans.begin(), plans.end(), [&](const GrowthPlan& p) {
+      return p.correct && p.crack == crack && p.end == end;
+    });
+  };
+  bool turned_any = false;
+  const auto intensities = model.stress_intensities(load_factor, is_corrected);
+  for (GrowthPlan& plan : plans) {
+    if (!plan.correct) continue;
+    for (const StressIntensity& k : intensities) {
+      if (k.crack != plan.crack || k.end != plan.end || k.k1 <= 0.0) continue;
+      const double turn = next_turn(plan, k);
+      if (std::abs(plan.angle + turn) > sharp_turn) continue;
+      plan.angle += turn;
+      turned_any = turned_any || std::abs(k.k2) > 0.01 * k.k1;
+    }
+  }
+  return turned_any;
+}
+
 }  // namespace
 
 GrowthCriterion::GrowthCriterion(const Model& model) : spec_(model.spec().growth) {
@@ -136,67 +158,49 @@ std::vector<GrowthPlan> plan_growth(const Model& model, const GrowthCriterion& c
   return plans;
 }
 
-std::vector<Increment> increments_of(const Model& model, const std::vector<GrowthPlan>& plans) {
+std::vector<Increment> increments_of(const Model& model, const CrackRegistry& registry,
+                                     const std::vector<GrowthPlan>& plans) {
   std::vector<Increment> increments;
   for (const GrowthPlan& plan : plans) {
-    const Crack& crack = crack_of(model.registry(), plan.crack);
+    const Crack& crack = crack_of(registry, plan.crack);
     const Vec2 from = crack.end_point(plan.end);
     increments.push_back({plan.crack, plan.end, from,
                           from + plan.length * turned(crack.end_tangent(plan.end), plan.angle)});
   }
-  return resolve_meetings(model.registry(), model.body(), model.touch_distance(),
-                          std::move(increments));
+  return resolve_meetings(registry, model.body(), model.touch_distance(), std::move(increments));
 }
 
-void correct_directions(Model& model, const EquilibriumSolver& solver, double load_factor,
-                        std::vector<GrowthPlan>& plans) {
+std::optional<Model::CrackedField> correct_directions(Model& model, const EquilibriumSolver& solver,
+                                                      double load_factor,
+                                                      std::vector<GrowthPlan>& plans) {
   const bool any =
       std::any_of(plans.begin(), plans.end(), [](const GrowthPlan& p) { return p.correct; });
-  if (!any) return;
+  if (!any) return std::nullopt;
   const CrackRegistry registry = model.registry();
   const bool joined = model.joins_loaded_boundaries();
   const Model::ContactMemory memory = model.contact_memory();
   const std::vector<double> state = model.state();
-  const auto back = [&] {
-    model.remember(memory);
-    model.lay_cracks(registry);
-    model.state() = state;
-  };
-  for (int trial = 0; trial < most_trials; ++trial) {
+  std::optional<Model::CrackedField> found;
+  bool turned_any = true;
+  // a trial begins where the one before it has come to rest
+  for (int trial = 0; trial < most_trials && turned_any; ++trial) {
     CrackRegistry ahead = registry;
-    apply_increments(increments_of(model, plans), model.touch_distance(), 1, 0, ahead);
+    apply_increments(increments_of(model, registry, plans), model.touch_distance(), 1, 0, ahead);
     model.lay_cracks(ahead);
-    if (joined && !model.joins_loaded_boundaries()) {
-      // the step cuts the body apart: there is no field to correct it by
-      back();
-      return;
-    }
+    // where the step cuts the body apart there is no field to correct it by
+    if (joined && !model.joins_loaded_boundaries()) break;
     try {
       find_equilibrium(model, solver, load_factor, FaceMotion::balanced);
     } catch (const ContactError&) {
-      back();
-      return;
+      break;
     }
-    const auto is_corrected = [&](int crack, int end) {
-      return std::any_of(plans.begin(), plans.end(), [&](const GrowthPlan& p) {
-        return p.correct && p.crack == crack && p.end == end;
-      });
-    };
-    const auto intensities = model.stress_intensities(load_factor, is_corrected);
-    bool turned_any = false;
-    for (GrowthPlan& plan : plans) {
-      if (!plan.correct) continue;
-      for (const StressIntensity& k : intensities) {
-        if (k.crack != plan.crack || k.end != plan.end || k.k1 <= 0.0) continue;
-        const double turn = next_turn(plan, k);
-        if (std::abs(plan.angle + turn) > sharp_turn) continue;
-        plan.angle += turn;
-        turned_any = turned_any || std::abs(k.k2) > 0.01 * k.k1;
-      }
-    }
-    back();
-    if (!turned_any) break;
+    found = model.cracked_field();
+    turned_any = turn_plans(model, load_factor, plans);
   }
+  model.remember(memory);
+  model.lay_cracks(registry);
+  model.state() = state;
+  return found;
 }
 
 }  // namespace cdca

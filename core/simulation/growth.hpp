@@ -7,6 +7,7 @@
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/simulation/equilibrium.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace cdca {
@@ -56,11 +57,14 @@ std::vector<GrowthPlan> plan_growth(const Model& model, const GrowthCriterion& c
                                     const std::vector<TipAssessment>& tips, double threshold);
 
 /// Turns planned increments until they end with K_II near 0: all growing tips advance together on
-/// trial, at most twice. The model comes back with its own cracks and its own state. Collective.
-void correct_directions(Model& model, const EquilibriumSolver& solver, double load_factor,
-                        std::vector<GrowthPlan>& plans);
+/// trial, at most twice. The model comes back with its own cracks and its own state. Returns the
+/// equilibrium of the last trial, if there is one: that after growth is near it. Collective.
+std::optional<Model::CrackedField> correct_directions(Model& model, const EquilibriumSolver& solver,
+                                                      double load_factor,
+                                                      std::vector<GrowthPlan>& plans);
 
-/// The increments of the plans, ended where they meet something.
-std::vector<Increment> increments_of(const Model& model, const std::vector<GrowthPlan>& plans);
+/// The increments of the plans for these cracks, ended where they meet something.
+std::vector<Increment> increments_of(const Model& model, const CrackRegistry& registry,
+                                     const std::vector<GrowthPlan>& plans);
 
 }  // namespace cdca

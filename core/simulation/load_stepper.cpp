@@ -110,12 +110,36 @@ void note(Model& model, EventKind kind, int step, int cycle) {
   model.replace_events(registry);
 }
 
-std::vector<Increment> next_increments(Model& model, const EquilibriumSolver& solver, double factor,
-                                       const GrowthCriterion& criterion,
-                                       const std::vector<TipAssessment>& tips, double threshold) {
+struct NextGrowth {
+  std::vector<Increment> increments;
+  std::optional<Model::CrackedField> trial;  ///< equilibrium of nearly the same cracks
+};
+
+NextGrowth next_growth(Model& model, const EquilibriumSolver& solver, double factor,
+                       const GrowthCriterion& criterion, const std::vector<TipAssessment>& tips,
+                       double threshold) {
   auto plans = plan_growth(model, criterion, tips, threshold);
-  correct_directions(model, solver, factor, plans);
-  return increments_of(model, plans);
+  auto trial = correct_directions(model, solver, factor, plans);
+  return {increments_of(model, model.registry(), plans), std::move(trial)};
+}
+
+/// Equilibrium of cracks that have grown: where there was a trial, from there; otherwise, and where
+/// faces do not settle from there, from where they were before.
+Equilibrium solve_grown(Model& model, const EquilibriumSolver& solver, double factor,
+                        const NextGrowth& growth, Recorder& recorder) {
+  if (growth.trial) {
+    const Model::ContactMemory memory = model.contact_memory();
+    const std::vector<double> state = model.state();
+    model.start_from(*growth.trial);
+    try {
+      return solve(model, solver, factor, recorder, FaceMotion::balanced);
+    } catch (const ContactError&) {
+    }
+    model.remember(memory);
+    model.state() = state;
+    model.build_stiffness();
+  }
+  return solve(model, solver, factor, recorder);
 }
 
 /// An equilibrium found at factor 1, at another factor.
@@ -211,13 +235,13 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
         note(model, EventKind::unstable, result.step, cycle);
         break;
       }
-      const auto increments =
-          next_increments(model, *solver, result.load_factor, criterion, tips, 1.0 - equal_index);
-      recorder.cycle(model, result.step, cycle, tips, increments);
-      advance(model, increments, result.step, ++cycle);
+      const NextGrowth growth =
+          next_growth(model, *solver, result.load_factor, criterion, tips, 1.0 - equal_index);
+      recorder.cycle(model, result.step, cycle, tips, growth.increments);
+      advance(model, growth.increments, result.step, ++cycle);
       separated = at.joined && !model.joins_loaded_boundaries();
       if (!separated) {
-        equilibrium = solve(model, *solver, result.load_factor, recorder);
+        equilibrium = solve_grown(model, *solver, result.load_factor, growth, recorder);
         // faces that might have held the parts together may have opened
         separated = at.joined && !model.joins_loaded_boundaries();
       }
@@ -283,13 +307,14 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
                   factor < spec.loading.min_factor * largest;
     energy.new_cracks_and_factor(model, now.equilibrium, factor);
     accept(model, Model::Since::other_loads, energy);
-    std::vector<Increment> increments;
+    NextGrowth growth;
     if (!result.last)
-      increments = next_increments(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);
-    recorder.cycle(model, event, 0, now.tips, increments);
+      growth = next_growth(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);
+    recorder.cycle(model, event, 0, now.tips, growth.increments);
     recorder.step(model, result, now.equilibrium, energy, now.tips);
     if (result.last) return;
-    advance(model, increments, event, 1);
+    advance(model, growth.increments, event, 1);
+    if (growth.trial) model.start_from(*growth.trial);
     if (linear) {
       for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
     }

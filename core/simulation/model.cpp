@@ -155,6 +155,14 @@ void Model::let_slip() {
 
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
+void Model::renew_stiffness(double weak_share) {
+  const CarriedCells carried(
+      mesh_, unknowns_, *stiffness_, unknowns_,
+      with_other_sides(elements_with_other_springs(built_springs_, contact_.springs()), cuts_),
+      supports_.flags(unknowns_.count()), springs(weak_share));
+  make_stiffness(weak_share, &carried);
+}
+
 void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   ++stiffness_version_;
   const auto held = supports_.flags(unknowns_.count());
@@ -171,6 +179,7 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   built_weak_share_ = weak_share;
   built_answers_.clear();
   for (const ContactPatch& p : contact_.patches()) built_answers_.push_back(p.now);
+  built_springs_ = contact_.springs();
 }
 
 std::size_t Model::turned_patches() const {
@@ -201,14 +210,21 @@ void Model::lay_cracks(CrackRegistry registry) {
   close_new_faces();
   carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
   constexpr double weak_share = 1e-3;
-  if (!contact_.empty() || !stiffness_) {
+  if (!stiffness_) {
     make_stiffness(weak_share, nullptr);
     return;
   }
-  const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_,
-                             changed_elements(old_cuts, old_zones, cuts_, zones_),
+  auto changed = changed_elements(old_cuts, old_zones, cuts_, zones_);
+  const auto turned = elements_with_other_springs(built_springs_, contact_.springs());
+  changed.insert(changed.end(), turned.begin(), turned.end());
+  if (!contact_.empty()) changed = with_other_sides(std::move(changed), cuts_);
+  const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_, std::move(changed),
                              supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
+}
+
+void Model::start_from(const CrackedField& field) {
+  carry_state({mesh_, field.cuts, field.zones, field.unknowns}, field.state, basis(), state_);
 }
 
 std::vector<std::size_t> Model::loose_bodies() const {

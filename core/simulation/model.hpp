@@ -34,6 +34,8 @@ class Model {
   /// weak_share: of springs that hold loose bodies where they are, as a part of the cells' own
   /// stiffness.
   void build_stiffness(double weak_share = 1e-3);
+  /// The same, where only springs have changed since: the rest is taken over. Collective.
+  void renew_stiffness(double weak_share);
   /// The springs of faces are what the patches answer now, and weak springs have this share,
   /// without new rows and factors. Only for the multilevel solver, whose scales stay as they are.
   /// Collective.
@@ -126,6 +128,16 @@ class Model {
   /// Displacements (and near-tip coefficients) of own cells and ghosts, m.
   std::vector<double>& state() { return state_; }
   const std::vector<double>& state() const { return state_; }
+  /// Displacements with the cracks that they belong to.
+  struct CrackedField {
+    ElementCuts cuts;
+    std::vector<TipZone> zones;
+    CellUnknowns unknowns;
+    std::vector<double> state;
+  };
+  CrackedField cracked_field() const { return {cuts_, zones_, unknowns_, state_}; }
+  /// Takes displacements of other cracks as a start for the next equilibrium.
+  void start_from(const CrackedField& field);
   /// Displacement and its gradient at a place x (m) of an element that this rank holds.
   FieldValue field_at(const Vec2& x) const;
   /// Stress (Pa) at x, when this rank evaluates the element there, x lies in the body, and no crack
@@ -170,6 +182,7 @@ class Model {
   std::unique_ptr<FinestElements> elements_;
   std::unique_ptr<CellStiffness> stiffness_;
   std::vector<ContactAnswer> built_answers_;  ///< of the patches, in the stiffness
+  SpringsOfElements built_springs_;           ///< the same as springs
   double built_weak_share_ = 0.0;
   std::unique_ptr<TurnedCells> cells_;
   std::int64_t stiffness_version_ = 0;

@@ -24,12 +24,14 @@ int old_piece_of(const BasisContext& before, const BasisContext& after, LocalId 
   return 0;
 }
 
+/// Of a tip that has hardly moved, as from one trial to the next, the field moves along.
 const TipUnknowns* same_tip(const BasisContext& before, LocalId node, const TipZone& zone) {
+  constexpr double near = 0.25;  // elements
+  const double size = before.mesh.grid().smallest_side();
   for (const TipUnknowns& tip : before.unknowns.tips(node)) {
     const TipZone& old = before.zones[std::size_t(tip.zone)];
-    if (old.crack == zone.crack && old.end == zone.end && old.frame.tip() == zone.frame.tip()) {
-      return &tip;
-    }
+    if (old.crack != zone.crack || old.end != zone.end) continue;
+    if ((old.frame.tip() - zone.frame.tip()).norm() <= near * size) return &tip;
   }
   return nullptr;
 }

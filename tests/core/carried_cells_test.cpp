@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What growth takes over from before is, to the last bit, what would be made anew.
+/// What growth and turning springs take over from before is, to the last bit, what would be made
+/// anew.
 #include "core/cells/carried_cells.hpp"
 
 #include "core/cracks/meetings.hpp"
@@ -40,11 +41,10 @@ Scales scales_of(const Model& model) {
   return all;
 }
 
-/// After lay_cracks() as after all is built anew.
-void expect_as_built_anew(Model& model, const CrackRegistry& registry) {
-  model.lay_cracks(registry);
+/// As after all is built anew.
+void expect_as_built_anew(Model& model, double weak_share = 1e-3) {
   const Scales carried = scales_of(model);
-  model.build_stiffness();
+  model.build_stiffness(weak_share);
   const Scales anew = scales_of(model);
   for (std::size_t k = 0; k < anew.rows.size(); ++k) {
     EXPECT_EQ(carried.rows[k].unknown, anew.rows[k].unknown) << "scale " << k;
@@ -54,6 +54,11 @@ void expect_as_built_anew(Model& model, const CrackRegistry& registry) {
     EXPECT_EQ(carried.moves[k], anew.moves[k]) << "scale " << k;
     EXPECT_EQ(carried.forces[k], anew.forces[k]) << "scale " << k;
   }
+}
+
+void expect_as_built_anew(Model& model, const CrackRegistry& registry) {
+  model.lay_cracks(registry);
+  expect_as_built_anew(model);
 }
 
 /// Every other active tip goes on by about an element, in any direction ahead.
@@ -114,6 +119,71 @@ TEST_P(CarriedCellsParallel, GrowthAndBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Plates, CarriedCellsParallel, ::testing::Range(0, 5));
+
+/// Stiff faces that touch at first.
+CaseSpec with_faces(CaseSpec spec) {
+  const double stiffness = 1e3 * spec.material.young / spec.domain.size.x() * spec.domain.cells[0];
+  for (CrackSpec& crack : spec.cracks)
+    crack.contact = {ContactLaw::coulomb, stiffness, 0.1 * stiffness, 0.3, 0, 0, 0};
+  return spec;
+}
+
+class CarriedFacesParallel : public ::testing::TestWithParam<int> {
+ protected:
+  static CaseSpec plate_number(int number) {
+    CaseSpec spec = with_faces(plates()[std::size_t(number)]);
+    spec.solver.coarsest_nodes = number == 1 ? 100000 : 60;
+    return spec;
+  }
+  /// About one face in ten opens, closes or begins to slide.
+  static void turn_some(Model& model, std::mt19937& engine) {
+    std::uniform_real_distribution<double> any(0, 1);
+    for (ContactPatch& p : model.contact().patches()) {
+      if (any(engine) > 0.1) continue;
+      const ContactAnswer closed = touching(model.contact().law_of(p));
+      p.now = any(engine) < 0.4 ? ContactAnswer() : closed;
+      if (any(engine) < 0.4) p.now.tangential_spring = 0.0;
+    }
+  }
+
+ private:
+  static std::vector<CaseSpec> plates() {
+    // a crack along grid lines, with a tip near one of another; and one with a wide zone
+    const Cracks along{{{.25, 1.0}, {.75, 1.0}}, {{.6, 1.08}, {.9, 1.3}}};
+    CaseSpec wide = plate_of(32, 64, along);
+    wide.tip_radius = 2.5 / 32;
+    return {plate_of(32, 64, along), plate_of(20, 40, three_cracks()), wide,
+            plate_of(27, 55, cracks_apart(20, 0.05, 3)), plate_of(33, 65, nearly_severing())};
+  }
+};
+
+TEST_P(CarriedFacesParallel, TurnAndGrow) {
+  Model model(plate_number(GetParam()), world(), world_partitioner());
+  model.build_stiffness();
+  std::mt19937 engine(5);
+  for (int cycle = 0; cycle < 6; ++cycle) {
+    SCOPED_TRACE(cycle);
+    const double weak_share = cycle % 3 == 0 ? 1e-3 : 0.3;
+    model.hold_all_bodies(cycle >= 2 && cycle <= 4);
+    turn_some(model, engine);
+    model.renew_stiffness(weak_share);
+    expect_as_built_anew(model, weak_share);
+    turn_some(model, engine);
+    expect_as_built_anew(model, grown(model, engine));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plates, CarriedFacesParallel, ::testing::Range(0, 5));
+
+/// Of a plate in which one face opens, cells far from it are as they were.
+TEST(CarriedFaces, MostCellsAreTheSame) {
+  const auto model = built(with_faces(plate_of(60, 120, three_cracks())));
+  const std::int64_t all = model->hierarchy().factors().made();
+  model->contact().patches()[3].now = ContactAnswer();
+  model->renew_stiffness(1e-3);
+  EXPECT_LT(model->hierarchy().factors().made(), all / 3);
+  EXPECT_GT(model->hierarchy().factors().reused(), all / 3);
+}
 
 /// Of a plate in which one tip grows, cells far from it are as they were.
 TEST(CarriedCells, MostCellsAreTheSame) {
