@@ -84,24 +84,27 @@ std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements,
 
 CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                            const CellStiffness& before, const CellUnknowns& unknowns,
-                           std::vector<GlobalId> changed, const std::vector<char>& held,
-                           const std::vector<double>& springs)
+                           std::vector<GlobalId> changed, std::vector<GlobalId> turned,
+                           const std::vector<char>& held, const std::vector<double>& springs)
     : before_(before),
       changed_(std::move(changed)),
+      turned_(std::move(turned)),
       same_rows_(std::size_t(mesh.node_count()), 1),
       same_(same_rows_),
       now_(std::size_t(unknowns_before.count()), -1) {
-  mark_corners(mesh, unknowns);
+  mark_changed(mesh, unknowns);
   carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
-  mark_zones(unknowns);
+  mark_zones(unknowns, same_rows_);
   for (std::size_t n = 0; n < same_.size(); ++n) same_[n] = same_[n] && same_rows_[n];
+  mark_turned(mesh);
+  mark_zones(unknowns, same_);
 }
 
 void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
   mesh.for_nodes_round(node, [&](LocalId n) { same_rows_[std::size_t(n)] = 0; });
 }
 
-void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns) {
+void CarriedCells::mark_changed(const LocalMesh& mesh, const CellUnknowns& unknowns) {
   for (const GlobalId id : changed_) {
     for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
       const LocalId n = mesh.find_node(corner);
@@ -109,6 +112,14 @@ void CarriedCells::mark_corners(const LocalMesh& mesh, const CellUnknowns& unkno
       same_rows_[std::size_t(n)] = 0;
       // on which side of the crack its near-tip functions are seen may show in all of its elements
       if (!unknowns.tips(n).empty()) differs_round(mesh, n);
+    }
+  }
+}
+
+void CarriedCells::mark_turned(const LocalMesh& mesh) {
+  for (const GlobalId id : turned_) {
+    for (const LocalId n : mesh.element_nodes(mesh.grid().element_index(id))) {
+      if (n >= 0) same_[std::size_t(n)] = 0;
     }
   }
 }
@@ -155,7 +166,7 @@ void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unk
   }
 }
 
-void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
+void CarriedCells::mark_zones(const CellUnknowns& unknowns, std::vector<char>& same) {
   // functions that strain nothing are held zone by zone
   std::map<int, std::vector<LocalId>> zones;
   for (const LocalId n : unknowns.special_nodes()) {
@@ -165,10 +176,10 @@ void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
   for (bool found = true; found;) {
     found = false;
     for (const auto& [number, nodes] : zones) {
-      const auto kept =
-          std::count_if(nodes.begin(), nodes.end(), [&](LocalId n) { return same_rows(n); });
+      const auto kept = std::count_if(nodes.begin(), nodes.end(),
+                                      [&](LocalId n) { return same[std::size_t(n)] != 0; });
       if (kept == 0 || kept == std::ptrdiff_t(nodes.size())) continue;
-      for (const LocalId n : nodes) same_rows_[std::size_t(n)] = 0;
+      for (const LocalId n : nodes) same[std::size_t(n)] = 0;
       found = true;
     }
   }

@@ -24,37 +24,39 @@ std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements, const St
 /// stiffness can be taken over, and under what numbers. Borrows the cells of before.
 class CarriedCells {
  public:
-  /// changed: elements whose stiffness is not what it was. held, springs: of the new unknowns, as
-  /// for CellStiffness.
+  /// changed: elements in which cracks are not what they were; turned: in which springs of faces
+  /// are not. held, springs: of the new unknowns, as for CellStiffness.
   CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                const CellStiffness& before, const CellUnknowns& unknowns,
-               std::vector<GlobalId> changed, const std::vector<char>& held,
-               const std::vector<double>& springs);
+               std::vector<GlobalId> changed, std::vector<GlobalId> turned,
+               const std::vector<char>& held, const std::vector<double>& springs);
 
   /// All that the stiffness of a cell depends on is what it was,
   bool same(LocalId node) const { return same_[std::size_t(node)] != 0; }
-  /// but perhaps for weak springs.
+  /// but perhaps for springs.
   bool same_rows(LocalId node) const { return same_rows_[std::size_t(node)] != 0; }
   /// The number of an old unknown of a cell that has the unknowns that it had, else -1. Numbers
   /// keep their order.
   LocalId now(LocalId unknown) const { return now_[std::size_t(unknown)]; }
   const CellStiffness& before() const { return before_; }
   const std::vector<GlobalId>& changed() const { return changed_; }
+  const std::vector<GlobalId>& turned() const { return turned_; }
 
  private:
   /// Corners of elements that have changed differ.
-  void mark_corners(const LocalMesh& mesh, const CellUnknowns& unknowns);
+  void mark_changed(const LocalMesh& mesh, const CellUnknowns& unknowns);
   /// Numbers of unknowns; cells that have others, or are held otherwise, differ, and so do those
   /// round them; cells with other weak springs differ, but not in their rows.
   void carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                       const CellUnknowns& unknowns, const std::vector<char>& held,
                       const std::vector<double>& springs);
+  void mark_turned(const LocalMesh& mesh);
   /// Cells of a tip zone are the same together, or none is.
-  void mark_zones(const CellUnknowns& unknowns);
+  static void mark_zones(const CellUnknowns& unknowns, std::vector<char>& same);
   void differs_round(const LocalMesh& mesh, LocalId node);
 
   const CellStiffness& before_;
-  std::vector<GlobalId> changed_;
+  std::vector<GlobalId> changed_, turned_;
   std::vector<char> same_rows_, same_;  ///< by node
   std::vector<LocalId> now_;
 };

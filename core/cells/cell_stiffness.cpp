@@ -69,6 +69,8 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   }
   regular_ = RegularRuns(mesh, regular, elements.plain());
   build_rows(mesh, unknowns, elements, regular, carried);
+  if (!springs.empty()) without_springs_ = rows_.value;
+  add_faces(mesh, elements);
   hold_idle_functions(mesh, unknowns);
   if (!springs.empty()) add_springs(springs);
   if (sweeps == Sweeps::one_after_the_other) {
@@ -114,8 +116,18 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
     }
     for (PartStiffness& own : elements.parts(element))
       sum.add(std::move(own.unknowns), std::move(own.matrix));
+    for (PartStiffness& face : elements.faces(element)) sum.make_places(std::move(face.unknowns));
   }
   rows_ = kept.with(sum.rows(wanted, owned_));
+}
+
+void CellStiffness::add_faces(const LocalMesh& mesh, ElementStiffness& elements) {
+  for (const GlobalId id : elements.special()) {
+    for (const PartStiffness& face : elements.faces(mesh.grid().element_index(id))) {
+      if (without_springs_.empty()) without_springs_ = rows_.value;
+      rows_.add(face.unknowns, face.matrix, owned_);
+    }
+  }
 }
 
 void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {
@@ -177,8 +189,10 @@ void CellStiffness::add_springs(const std::vector<double>& springs) {
     if (u >= owned_ || springs[std::size_t(u)] == 0.0) continue;
     for (std::size_t k = rows_.start[r]; k < rows_.start[r + 1]; ++k) {
       if (rows_.column[k] != u) continue;
-      springs_.push_back({u, springs[std::size_t(u)], rows_.value[k]});
-      rows_.value[k] += springs_.back().stiffness();
+      // faces that turn must not change them
+      const double share = springs[std::size_t(u)];
+      springs_.push_back({u, share, share * without_springs_[k]});
+      rows_.value[k] += springs_.back().stiffness;
     }
   }
 }
@@ -186,7 +200,7 @@ void CellStiffness::add_springs(const std::vector<double>& springs) {
 void CellStiffness::add_spring_forces(std::span<const double> displacements,
                                       std::span<double> forces, double share) const {
   for (const Spring& s : springs_)
-    forces[std::size_t(s.unknown)] += share * s.stiffness() * displacements[std::size_t(s.unknown)];
+    forces[std::size_t(s.unknown)] += share * s.stiffness * displacements[std::size_t(s.unknown)];
 }
 
 void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,

@@ -56,14 +56,17 @@ class CellStiffness final : public CellSystem {
   const RegularRuns& regular() const { return regular_; }
   /// Of all cells that do not use the common stencil; columns of ghosts included.
   const StiffnessRows& rows() const { return rows_; }
+  /// Values of the rows without springs of faces and weak springs.
+  const std::vector<double>& without_springs() const {
+    return without_springs_.empty() ? rows_.value : without_springs_;
+  }
   /// Own unknowns that supports hold, ascending.
   const std::vector<LocalId>& held() const { return held_; }
   /// A weak spring of an own unknown.
   struct Spring {
     LocalId unknown;
-    double share;    ///< of the unknown's own stiffness
-    double without;  ///< its own stiffness, Pa
-    double stiffness() const { return share * without; }
+    double share;      ///< of the unknown's own stiffness
+    double stiffness;  ///< Pa
   };
   /// In order of unknowns.
   const std::vector<Spring>& springs() const { return springs_; }
@@ -82,6 +85,7 @@ class CellStiffness final : public CellSystem {
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<char>& regular, const CarriedCells* carried);
+  void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
   /// only, are held at 0: of one cell, and of all cells of a zone of one element.
   void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);
@@ -103,6 +107,7 @@ class CellStiffness final : public CellSystem {
   LocalId count_ = 0;
   RegularRuns regular_;
   StiffnessRows rows_;
+  std::vector<double> without_springs_;  ///< empty when there are none
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;

@@ -34,11 +34,18 @@ std::vector<PartStiffness> FinestElements::parts(GridIndex e) {
   const Element& known = element(e);
   std::vector<PartStiffness> parts;
   for (const auto& part : known.parts) parts.push_back({part.unknowns, *part.matrix});
+  return parts;
+}
+
+std::vector<PartStiffness> FinestElements::faces(GridIndex e) {
+  std::vector<PartStiffness> faces;
+  if (!springs_ || !context_.cuts.touched(e)) return faces;
+  const Element& known = element(e);
   for (std::size_t k = 0; k < known.faces.size(); ++k) {
     PartStiffness face = known.faces[k].stiffness(springs_->on(e, k));
-    if (!face.unknowns.empty()) parts.push_back(std::move(face));
+    if (!face.unknowns.empty()) faces.push_back(std::move(face));
   }
-  return parts;
+  return faces;
 }
 
 std::vector<GlobalId> elements_near_cracks(const LocalMesh& mesh, const ElementParts& elements,

@@ -21,9 +21,11 @@ class ElementStiffness {
   /// Elements of this rank that are cut, or carry near-tip functions, or touch cells with several
   /// pieces, or are not whole; in order of id.
   virtual const std::vector<GlobalId>& special() const = 0;
-  /// Of a special element: one matrix for each part, and for each face with springs that the
-  /// element counts as its own.
+  /// Of a special element, one matrix for each part.
   virtual std::vector<PartStiffness> parts(GridIndex element) = 0;
+  /// Springs of a special element, one matrix for each face that it counts as its own. They may
+  /// turn while cracks stay as they are; the unknowns are the same then.
+  virtual std::vector<PartStiffness> faces(GridIndex element) = 0;
 };
 
 /// The elements of the grid itself, as long as the cracks stay as they are; springs may change.
@@ -35,6 +37,7 @@ class FinestElements final : public ElementStiffness {
   const PlainStiffness& plain() const override { return plain_; }
   const std::vector<GlobalId>& special() const override { return special_; }
   std::vector<PartStiffness> parts(GridIndex element) override;
+  std::vector<PartStiffness> faces(GridIndex element) override;
 
  private:
   /// What does not depend on springs.

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/kept_rows.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace cdca {
 
 namespace {
 
-/// Adds a row as it is but for its number.
-void add_row(const StiffnessRows& from, std::size_t row, LocalId unknown, StiffnessRows& to) {
+/// Adds a row as it is but for its number; values: of all rows that it is one of.
+void add_row(const StiffnessRows& from, const std::vector<double>& values, std::size_t row,
+             LocalId unknown, StiffnessRows& to) {
   const auto first = std::ptrdiff_t(from.start[row]), last = std::ptrdiff_t(from.start[row + 1]);
   to.unknown.push_back(unknown);
   to.column.insert(to.column.end(), from.column.begin() + first, from.column.begin() + last);
-  to.value.insert(to.value.end(), from.value.begin() + first, from.value.begin() + last);
+  to.value.insert(to.value.end(), values.begin() + first, values.begin() + last);
   to.start.push_back(to.column.size());
 }
 
@@ -42,27 +42,21 @@ bool KeptRows::keep(LocalId node, const std::vector<LocalId>& unknowns) {
 StiffnessRows KeptRows::with(StiffnessRows made) const {
   if (!carried_) return made;
   const StiffnessRows& before = carried_->before().rows();
-  const auto& springs = carried_->before().springs();
-  auto spring = springs.begin();
+  const auto& values = carried_->before().without_springs();
   StiffnessRows all;
   std::size_t m = 0;
   const auto add_made = [&](LocalId end) {
     for (; m < made.unknown.size() && made.unknown[m] < end; ++m)
-      add_row(made, m, made.unknown[m], all);
+      add_row(made, made.value, m, made.unknown[m], all);
   };
   for (std::size_t r = 0; r < before.unknown.size(); ++r) {
     if (!kept_[r]) continue;
     const LocalId unknown = carried_->now(before.unknown[r]);
     add_made(unknown);
     const std::size_t first = all.column.size();
-    add_row(before, r, unknown, all);
+    add_row(before, values, r, unknown, all);
     for (std::size_t k = first; k < all.column.size(); ++k)
       all.column[k] = carried_->now(all.column[k]);
-    while (spring != springs.end() && spring->unknown < before.unknown[r]) ++spring;
-    if (spring == springs.end() || spring->unknown != before.unknown[r]) continue;
-    const auto at =
-        std::lower_bound(all.column.begin() + std::ptrdiff_t(first), all.column.end(), unknown);
-    all.value[std::size_t(at - all.column.begin())] = spring->without;
   }
   add_made(std::numeric_limits<LocalId>::max());
   return all;

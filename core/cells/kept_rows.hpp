@@ -15,7 +15,7 @@ class KeptRows {
 
   /// Keeps the rows of all these unknowns of a cell, if the cell is the same and had rows before.
   bool keep(LocalId node, const std::vector<LocalId>& unknowns);
-  /// The rows kept, under their new numbers and without weak springs, and those made anew.
+  /// The rows kept, under their new numbers and without springs, and those made anew.
   StiffnessRows with(StiffnessRows made) const;
 
  private:

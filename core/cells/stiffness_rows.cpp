@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace cdca {
@@ -26,6 +27,24 @@ double StiffnessRows::times(std::size_t row, std::span<const double> x, LocalId 
 std::ptrdiff_t StiffnessRows::find(LocalId u) const {
   const auto it = std::lower_bound(unknown.begin(), unknown.end(), u);
   return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
+}
+
+void StiffnessRows::add(const std::vector<LocalId>& unknowns, const Eigen::MatrixXd& matrix,
+                        LocalId owned) {
+  std::vector<std::size_t> order(unknowns.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return unknowns[a] < unknowns[b]; });
+  for (std::size_t a = 0; a < unknowns.size(); ++a) {
+    const std::ptrdiff_t row = find(unknowns[a]);
+    if (row < 0) continue;
+    std::size_t k = start[std::size_t(row)];
+    for (const std::size_t b : order) {
+      if (unknowns[a] >= owned && unknowns[b] >= owned) break;
+      while (column[k] < unknowns[b]) ++k;
+      value[k] += matrix(Eigen::Index(a), Eigen::Index(b));
+    }
+  }
 }
 
 void RowSum::add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix) {
@@ -69,14 +88,13 @@ StiffnessRows RowSum::rows(const std::vector<char>& wanted, LocalId owned) const
     columns.clear();
     for (std::size_t p = first; p < end[r]; ++p) {
       const auto& unknowns = parts[p].addend->unknowns;
-      const double* value = parts[p].addend->matrix + parts[p].row;
-      for (const LocalId c : unknowns) {
-        if (c < last) {
-          const auto at = std::size_t(c);
-          if (!std::exchange(found[at], 1)) columns.push_back(c);
-          sum[at] += *value;
-        }
-        value += unknowns.size();
+      const double* matrix = parts[p].addend->matrix;
+      for (std::size_t k = 0; k < unknowns.size(); ++k) {
+        const LocalId c = unknowns[k];
+        if (c >= last) continue;
+        const auto at = std::size_t(c);
+        if (!std::exchange(found[at], 1)) columns.push_back(c);
+        if (matrix) sum[at] += matrix[parts[p].row + k * unknowns.size()];
       }
     }
     std::sort(columns.begin(), columns.end());

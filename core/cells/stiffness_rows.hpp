@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cdca {
@@ -23,15 +24,21 @@ struct StiffnessRows {
   double times(std::size_t row, std::span<const double> x, LocalId end) const;
   /// Row number of an unknown, or -1.
   std::ptrdiff_t find(LocalId unknown) const;
+  /// Adds a matrix over some unknowns, whose places are there; not that of ghosts on ghosts.
+  void add(const std::vector<LocalId>& unknowns, const Eigen::MatrixXd& matrix, LocalId owned);
 };
 
-/// Adds up rows of cells from the matrices of elements, part by part and face by face.
+/// Adds up rows of cells from the matrices of elements, part by part.
 class RowSum {
  public:
   void add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix);
   /// Of an element without cracks; the matrix has to stay where it is.
   void refer_to(std::vector<LocalId> unknowns, const Eigen::Matrix<double, 8, 8>& matrix);
 
+  /// Makes places for a matrix over these unknowns that is added later.
+  void make_places(std::vector<LocalId> unknowns) {
+    addends_.push_back({std::move(unknowns), nullptr});
+  }
   /// The rows of all wanted unknowns; entries of ghosts on ghosts are left out. Entries of the same
   /// place are added up in the order in which they came, so that the sums are bit for bit the same
   /// whatever the numbers of the unknowns.
@@ -40,7 +47,7 @@ class RowSum {
  private:
   struct Addend {
     std::vector<LocalId> unknowns;
-    const double* matrix;  ///< by columns
+    const double* matrix;  ///< by columns; null for zeros
   };
   /// A row of an addend.
   struct Part {

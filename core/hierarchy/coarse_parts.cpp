@@ -238,6 +238,11 @@ std::vector<PartStiffness> CoarseElements::parts(GridIndex element) {
     own.matrix = parts_.stiffness(element, part);
     found.push_back(std::move(own));
   }
+  return found;
+}
+
+std::vector<PartStiffness> CoarseElements::faces(GridIndex element) {
+  std::vector<PartStiffness> found;
   if (const auto at = bonds_at_.find(mesh_.grid().element(element)); at != bonds_at_.end()) {
     for (const std::size_t b : at->second)
       found.push_back(held_entries(parts_.bonds()[b], mesh_, unknowns_));

@@ -101,6 +101,7 @@ class CoarseElements final : public ElementStiffness {
   const PlainStiffness& plain() const override { return parts_.plain(); }
   const std::vector<GlobalId>& special() const override { return special_; }
   std::vector<PartStiffness> parts(GridIndex element) override;
+  std::vector<PartStiffness> faces(GridIndex element) override;
 
  private:
   const LocalMesh& mesh_;

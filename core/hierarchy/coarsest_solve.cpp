@@ -3,8 +3,6 @@
 
 #include "core/base/errors.hpp"
 
-#include <algorithm>
-
 namespace cdca {
 
 namespace {
@@ -20,19 +18,10 @@ StiffnessEntries entries_of_all(Communicator& communicator, StiffnessEntries min
   return unpack<StiffnessEntries::value_type>(all);
 }
 
-constexpr double outgrown = 1.2;  ///< a factor so many times larger is worth a new order
-
-void update(EliminationOrder& order, std::size_t size, const StiffnessEntries& entries) {
-  if (order.place.size() == Eigen::Index(size) &&
-      double(order.entries_now) <= outgrown * double(order.entries))
-    return;
-  order.place = elimination_order(size, entries);
-  order.entries = 0;
-}
-
 }  // namespace
 
-CoarsestSolve::CoarsestSolve(const CellStiffness& cells, EliminationOrder& order) : cells_(cells) {
+CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
+    : cells_(cells), factor_(factor) {
   Communicator& communicator = cells.communicator();
   const auto own = std::size_t(cells.owned());
   std::vector<double> counts(std::size_t(communicator.size()), 0.0);
@@ -64,14 +53,8 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, EliminationOrder& order
     }
   }
   entries = entries_of_all(communicator, std::move(entries));
-  update(order, total_, entries);
-  place_ = order.place;
-  factor_.compute(in_order(place_, entries, false));
-  if (factor_.info() != Eigen::Success) {
+  if (!factor.compute(total_, entries))
     throw SolveError("the stiffness of the coarsest cells could not be factored");
-  }
-  order.entries_now = factor_.matrixL().nestedExpression().nonZeros();
-  if (order.entries == 0) order.entries = order.entries_now;
 }
 
 void CoarsestSolve::solve(std::span<const double> forces, std::span<double> moves) const {
@@ -80,11 +63,8 @@ void CoarsestSolve::solve(std::span<const double> forces, std::span<double> move
   all.segment(Eigen::Index(first_), own) = Eigen::Map<const Eigen::VectorXd>(forces.data(), own);
   for (const LocalId u : cells_.held()) all[Eigen::Index(first_) + u] = 0.0;
   cells_.communicator().sum(std::span<double>(all.data(), total_));
-  Eigen::VectorXd placed(all.size());
-  for (Eigen::Index u = 0; u < all.size(); ++u) placed[place_[u]] = all[u];
-  placed = factor_.solve(placed).eval();
-  for (Eigen::Index u = 0; u < own; ++u)
-    moves[std::size_t(u)] = placed[place_[Eigen::Index(first_) + u]];
+  factor_.solve(all);
+  for (Eigen::Index u = 0; u < own; ++u) moves[std::size_t(u)] = all[Eigen::Index(first_) + u];
 }
 
 }  // namespace cdca

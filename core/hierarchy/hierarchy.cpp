@@ -85,8 +85,8 @@ class Hierarchy::Level final : public Scale {
     windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors,
                                          before ? before->windows_.get() : nullptr, carried);
   }
-  void set_coarsest(EliminationOrder& order) {
-    coarsest_ = std::make_unique<CoarsestSolve>(*cells_, order);
+  void set_coarsest(CoarsestFactor& factor) {
+    coarsest_ = std::make_unique<CoarsestSolve>(*cells_, factor);
   }
 
   CoarseParts* parts() const { return parts_.get(); }
@@ -142,23 +142,25 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   const auto level_before = [&](std::size_t k) {
     return before.empty() ? nullptr : before[k].get();
   };
-  finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic, finest.faces);
+  const FaceSprings* faces = meshes_.empty() ? nullptr : finest.faces;
+  finest_parts_ = std::make_unique<FinestParts>(basis.cuts, finest.elastic, faces);
   levels_.emplace_back(new Level(basis.mesh, basis.unknowns, cells));
   if (meshes_.empty()) {
-    levels_[0]->set_coarsest(order_);
+    levels_[0]->set_coarsest(coarsest_factor_);
     return;
   }
   const PlainStiffness element = plain_stiffness(basis.mesh.grid().element_size(), finest.elastic);
   levels_[0]->set_smoother(finest_plans_, element, factors_, level_before(0), finest.carried);
   CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
-  std::vector<GlobalId> changed;
-  if (finest.carried) changed = finest.carried->changed();
+  std::vector<GlobalId> changed, turned;
+  if (finest.carried) changed = finest.carried->changed(), turned = finest.carried->turned();
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     auto own_parts = std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic);
     const Level* was = level_before(k + 1);
     if (was) {
       changed = parents_of(changed, finer->grid());
+      turned = parents_of(turned, finer->grid());
       own_parts->take_over(*was->parts(), changed);
     }
     levels_.emplace_back(new Level(meshes_[k], std::move(own_parts), communicator));
@@ -175,13 +177,13 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     std::optional<CarriedCells> carried;
     if (was) {
       carried.emplace(meshes_[k], was->unknowns(), was->stiffness(), level.unknowns(), changed,
-                      supports.held(), supports.springs());
+                      turned, supports.held(), supports.springs());
     }
     const CarriedCells* same = carried ? &*carried : nullptr;
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);
     level.set_cells(coarsest ? all_own(meshes_[k]) : cells_of(plans), supports, communicator, same);
     if (coarsest) {
-      level.set_coarsest(order_);
+      level.set_coarsest(coarsest_factor_);
     } else {
       level.set_smoother(plans, parts.plain(), factors_, was, same);
     }

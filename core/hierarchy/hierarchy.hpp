@@ -64,7 +64,7 @@ class Hierarchy final : public Scales {
   std::unique_ptr<ScaleParts> finest_parts_;
   std::vector<std::unique_ptr<Level, LevelDeleter>> levels_;
   WindowFactors factors_;
-  EliminationOrder order_;  ///< on the coarsest scale
+  CoarsestFactor coarsest_factor_;
 };
 
 }  // namespace cdca

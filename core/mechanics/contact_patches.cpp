@@ -244,6 +244,7 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
     change.unbalanced = std::max(
         change.unbalanced, unbalanced(p, gaps[k], contact_answer(law, p.largest, gaps[k], found)));
     const ContactAnswer next = contact_answer(law, p.largest, gaps[k], limits[k]);
+    change.at_limits = std::max(change.at_limits, unbalanced(p, gaps[k], next));
     change.largest = std::max({change.largest, std::abs(next.normal), std::abs(next.tangential)});
     change.springs = change.springs || differ(p.now.normal_spring, next.normal_spring) ||
                      differ(p.now.tangential_spring, next.tangential_spring);

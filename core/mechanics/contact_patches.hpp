@@ -91,6 +91,7 @@ class ContactPatches final : public FaceSprings {
   struct Change {
     bool springs = false;     ///< the stiffness
     double unbalanced = 0.0;  ///< largest traction that the last solve did not count with, Pa
+    double at_limits = 0.0;   ///< the same where friction keeps to the limits given, Pa
     double largest = 0.0;     ///< largest traction, Pa
   };
   /// Gives all patches new gaps, and the answers to them.

@@ -14,14 +14,14 @@ namespace {
 struct DragStep {
   bool balanced = false;
   int turns = 0;
-  double unbalanced = 1.0, pulled = 0.0;  ///< as of FaceTurns
+  double limits_off = 1.0, pulled = 0.0;  ///< as of FaceTurns
 };
 
 DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule) {
   try {
     FaceTurns turns(model, solves, given, rule);
     const bool balanced = turns.turn() == FaceTurns::End::balanced;
-    return {balanced, turns.count(), turns.unbalanced(), turns.pulled()};
+    return {balanced, turns.count(), turns.limits_off(), turns.pulled()};
   } catch (const SolveError&) {
     return {};  // springs of faces so different that no solve is exact; more drag helps here, too
   }
@@ -31,7 +31,7 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
 
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough,
                        int most) {
-  constexpr int most_turns = 25;
+  constexpr int most_turns = 50;
   constexpr double at_first = 1e-2, firmest = 1e4;
   constexpr double less = 0.4, more = 5;        // drag after steps that succeed, and that do not
   constexpr double roughly = 1e-5, part = 0.1;  // of forces, on the way
@@ -47,7 +47,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     const std::vector<double> state = model.state();
     const DragStep now = step(model, solves, given, {close, most_turns, drag});
     crept.turns += now.turns;
-    crept.unbalanced = now.unbalanced;
+    crept.unbalanced = now.limits_off;
     if (!now.balanced) {
       model.remember(memory);
       model.state() = state;
@@ -56,7 +56,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
       continue;
     }
     const bool rests = now.pulled <= at_rest;
-    crept.found = rests && close == enough;
+    crept.found = rests && close == enough && now.limits_off <= enough;
     if (crept.found) break;
     close = rests ? enough : std::clamp(part * now.pulled, enough, roughly);
     model.let_slip();

@@ -12,7 +12,7 @@ namespace cdca {
 namespace {
 
 /// Limits of friction follow the pressures in so many iterations, then only where states settle.
-constexpr int follow_at_once = 20, follow_at_once_in_drag = 4;
+constexpr int follow_at_once = 20;
 /// Moves shorter than this turn faces one by one; after a few of them faces have jammed.
 constexpr double short_move = 0.1;
 constexpr int short_moves = 4;
@@ -50,7 +50,7 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
 FaceTurns::End FaceTurns::turn() {
   while (count_ < rule_.most) {
     if (once()) return End::balanced;
-    if (cut_short_ == short_moves || (!drags() && count_ == follow_at_once)) return End::jammed;
+    if (!drags() && (cut_short_ == short_moves || count_ == follow_at_once)) return End::jammed;
   }
   return End::too_many;
 }
@@ -68,12 +68,13 @@ bool FaceTurns::once() {
   // while many faces still change their states it is of no use to be exact
   const bool near = settled_ || unbalanced_ <= nearly;
   // rounding can keep a face that is about to turn from settling for ever
-  const int at_once = drags() ? follow_at_once_in_drag : follow_at_once;
-  const bool following = count_ <= at_once || (near && solves_.slowest().rounded);
+  const bool following =
+      !drags() && (count_ <= follow_at_once || (near && solves_.slowest().rounded));
   const double agreed = near ? 0.1 * enough : 0.1 * std::min(1.0, 10 * unbalanced_) * unbalanced_;
   const std::vector<double> from = model_.state();
-  solves_.once({part_, following && !near ? 1e-3 : 0.0});
-  if (following || settled_) solves_.turn_limits(std::max(agreed, 0.1 * enough), part_);
+  solves_.once({part_, (following || drags()) && !near ? 1e-3 : 0.0});
+  if (following || (settled_ && !drags()))
+    solves_.turn_limits(std::max(agreed, 0.1 * enough), part_);
   const LineSearch search(model_, given_.external, from, given_.anchor);
   const double before_drag = drags() ? 0.0 : solves_.held_back(search.move());
   const double share = search.find(before_drag > enough ? farthest : 1.0);
@@ -81,14 +82,17 @@ bool FaceTurns::once() {
   const auto gaps = search.gaps(share);
   const bool whole = share >= 1.0;
   settled_ = whole && contact.settled(gaps);
-  const auto limits = following || settled_ ? contact.limits_at(gaps) : contact.limits();
+  const bool follow = following || (settled_ && !drags());
+  const auto limits = follow ? contact.limits_at(gaps) : contact.limits();
   const auto change = contact.respond(gaps, limits);
   // bodies that only others hold are let go little by little
   const double before = weak_;
   if (whole && !drags()) weak_ = std::max(weakest, 0.3 * weak_);
   if (change.springs || (weak_ != before && model_.has_weak_springs())) solves_.turn_springs(weak_);
   constexpr double tiny = std::numeric_limits<double>::min();
-  unbalanced_ = change.unbalanced / std::max({change.largest, change.unbalanced, tiny});
+  const double largest = std::max({change.largest, change.unbalanced, tiny});
+  unbalanced_ = (drags() ? change.at_limits : change.unbalanced) / largest;
+  limits_off_ = change.unbalanced / largest;
   pulled_ = drags() ? solves_.held_back(from_anchor()) : before_drag;
   // rounding keeps solves from being exact when loose bodies have gone far
   const double wanted = drags() ? 0.1 * enough : part_ * tolerance;

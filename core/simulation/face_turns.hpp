@@ -32,6 +32,9 @@ class FaceTurns {
   int count() const { return count_; }
   void add_to_count(int steps) { count_ += steps; }
   double unbalanced() const { return unbalanced_; }
+  /// The same with the limits of friction that the pressures ask for: in drag they stay as they
+  /// were at first.
+  double limits_off() const { return limits_off_; }
   /// Taken by springs of bodies in the last turn, as a part of all forces.
   double pulled() const { return pulled_; }
 
@@ -46,7 +49,7 @@ class FaceTurns {
   Rule rule_;
   double part_ = 1.0;  ///< of the solver's tolerance
   double weak_;        ///< springs of bodies
-  double unbalanced_ = 1.0, pulled_ = 0.0;
+  double unbalanced_ = 1.0, limits_off_ = 1.0, pulled_ = 0.0;
   bool settled_ = false;
   int count_ = 0;      ///< turns so far
   int cut_short_ = 0;  ///< short moves so far

@@ -156,11 +156,14 @@ void Model::let_slip() {
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
 void Model::renew_stiffness(double weak_share) {
-  const CarriedCells carried(
-      mesh_, unknowns_, *stiffness_, unknowns_,
-      with_other_sides(elements_with_other_springs(built_springs_, contact_.springs()), cuts_),
-      supports_.flags(unknowns_.count()), springs(weak_share));
+  const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {}, turned_elements(),
+                             supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
+}
+
+std::vector<GlobalId> Model::turned_elements() const {
+  if (hierarchy_.count() < 2) return {};  // only windows ask for them
+  return with_other_sides(elements_with_other_springs(built_springs_, contact_.springs()), cuts_);
 }
 
 void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
@@ -179,7 +182,7 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   built_weak_share_ = weak_share;
   built_answers_.clear();
   for (const ContactPatch& p : contact_.patches()) built_answers_.push_back(p.now);
-  built_springs_ = contact_.springs();
+  if (hierarchy_.count() > 1) built_springs_ = contact_.springs();
 }
 
 std::size_t Model::turned_patches() const {
@@ -215,11 +218,10 @@ void Model::lay_cracks(CrackRegistry registry) {
     return;
   }
   auto changed = changed_elements(old_cuts, old_zones, cuts_, zones_);
-  const auto turned = elements_with_other_springs(built_springs_, contact_.springs());
-  changed.insert(changed.end(), turned.begin(), turned.end());
   if (!contact_.empty()) changed = with_other_sides(std::move(changed), cuts_);
   const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_, std::move(changed),
-                             supports_.flags(unknowns_.count()), springs(weak_share));
+                             turned_elements(), supports_.flags(unknowns_.count()),
+                             springs(weak_share));
   make_stiffness(weak_share, &carried);
 }
 

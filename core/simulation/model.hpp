@@ -152,6 +152,8 @@ class Model {
   void build_cells();
   void find_bodies();
   void make_stiffness(double weak_share, const CarriedCells* carried);
+  /// Where springs of faces are not those that the stiffness was built with, on both sides.
+  std::vector<GlobalId> turned_elements() const;
   std::size_t body_of(GridIndex element, int part) const;
   std::vector<ContactSpec> contact_laws() const;
   /// Faces that count as holding one body to another.

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/hierarchy/coarsest_factor.hpp"
+
+#include <algorithm>
+
+namespace cdca {
+
+namespace {
+
+constexpr double outgrown = 1.2;  ///< a factor so many times larger is worth a new order
+
+std::uint64_t place_of(const Eigen::Triplet<double>& e) {
+  return (std::uint64_t(std::uint32_t(e.row())) << 32) | std::uint32_t(e.col());
+}
+
+}  // namespace
+
+bool CoarsestFactor::compute(std::size_t size, const StiffnessEntries& entries) {
+  if (!same_places(size, entries)) lay_places(size, entries);
+  double* values = matrix_.valuePtr();
+  std::fill(values, values + matrix_.nonZeros(), 0.0);
+  for (std::size_t k = 0; k < entries.size(); ++k) values[at_[k]] += entries[k].value();
+  factor_.factorize(matrix_);
+  if (factor_.info() != Eigen::Success) return false;
+  entries_now_ = factor_.matrixL().nestedExpression().nonZeros();
+  if (entries_of_order_ == 0) entries_of_order_ = entries_now_;
+  return true;
+}
+
+void CoarsestFactor::solve(Eigen::VectorXd& values) const {
+  Eigen::VectorXd placed(values.size());
+  for (Eigen::Index u = 0; u < values.size(); ++u) placed[place_[u]] = values[u];
+  placed = factor_.solve(placed).eval();
+  for (Eigen::Index u = 0; u < values.size(); ++u) values[u] = placed[place_[u]];
+}
+
+bool CoarsestFactor::same_places(std::size_t size, const StiffnessEntries& entries) const {
+  return place_.size() == Eigen::Index(size) &&
+         std::equal(entries.begin(), entries.end(), places_.begin(), places_.end(),
+                    [](const auto& e, std::uint64_t place) { return place_of(e) == place; });
+}
+
+void CoarsestFactor::lay_places(std::size_t size, const StiffnessEntries& entries) {
+  if (place_.size() != Eigen::Index(size) ||
+      double(entries_now_) > outgrown * double(entries_of_order_)) {
+    place_ = elimination_order(size, entries);
+    entries_of_order_ = 0;
+  }
+  matrix_ = in_order(place_, entries, false);
+  matrix_.makeCompressed();
+  places_.clear();
+  at_.clear();
+  for (const auto& e : entries) {
+    places_.push_back(place_of(e));
+    const auto [column, row] = std::minmax(place_[e.row()], place_[e.col()]);
+    const int* rows = matrix_.innerIndexPtr();
+    const int first = matrix_.outerIndexPtr()[column], last = matrix_.outerIndexPtr()[column + 1];
+    at_.push_back(std::size_t(std::lower_bound(rows + first, rows + last, row) - rows));
+  }
+  factor_.analyzePattern(matrix_);
+}
+
+}  // namespace cdca

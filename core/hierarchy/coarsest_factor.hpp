@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A factor that outlasts changes of the stiffness.
+#pragma once
+
+#include "core/hierarchy/elimination_order.hpp"
+
+#include <cstdint>
+
+namespace cdca {
+
+/// While entries stand where they stood, as when only springs turn, places and fill-in are known
+/// from before. The order of elimination outlasts small changes of the cracks, too: a factor that
+/// has become too large for it asks for a new one.
+class CoarsestFactor {
+ public:
+  /// Of every pair of coupled unknowns one entry counts. Returns whether there is a factor.
+  bool compute(std::size_t size, const StiffnessEntries& entries);
+  /// values = K^-1 values, by unknown.
+  void solve(Eigen::VectorXd& values) const;
+
+ private:
+  bool same_places(std::size_t size, const StiffnessEntries& entries) const;
+  void lay_places(std::size_t size, const StiffnessEntries& entries);
+
+  Eigen::VectorXi place_;              ///< of every unknown in the factor
+  Eigen::Index entries_of_order_ = 0;  ///< of the factor that the order was made for
+  Eigen::Index entries_now_ = 0;       ///< of the last factor
+  std::vector<std::uint64_t> places_;  ///< row and column of every entry
+  std::vector<std::size_t> at_;        ///< of every entry among the values of matrix_
+  Eigen::SparseMatrix<double> matrix_;
+  OrderedFactor factor_;
+};
+
+}  // namespace cdca
