@@ -13,7 +13,7 @@ namespace cdca {
 
 namespace {
 
-constexpr int most_steps = 150;  ///< of creep
+constexpr int most_creeping = 400;  ///< turns of creep
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
@@ -40,7 +40,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     // friction depends on the way, which begins where the faces have been
     model.remember(at_first);
     model.state() = here;
-    const Crept crept = creep_to_balance(model, solves, given, enough, most_steps);
+    const Crept crept = creep_to_balance(model, solves, given, enough, most_creeping);
     crept_turns += crept.turns;
     note(crept.unbalanced);
     return crept.found;

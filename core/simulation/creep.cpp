@@ -42,7 +42,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
   double drag = at_first, close = roughly;
   int in_a_row = 0;
   model.hold_all_bodies(true);
-  for (int k = 0; k < most && drag < firmest; ++k) {
+  while (crept.turns < most && drag < firmest) {
     const Model::ContactMemory memory = model.contact_memory();
     const std::vector<double> state = model.state();
     const DragStep now = step(model, solves, given, {close, most_turns, drag});

@@ -14,10 +14,11 @@ struct Crept {
 
 /// Where faces lose their hold, the next equilibrium may be far away, and with friction it depends
 /// on the way there. Here drag resists all motion, faces slip on the way (Model::let_slip), and
-/// every step is a balance with the drag, which is easier to find the firmer the drag is.
+/// every step is a balance with the drag, which is easier to find the firmer the drag is. Within a
+/// step friction keeps to the limits that pressures set before it: then it is one minimum to find.
 /// Ends where drag takes less than 1e-6 of all forces, with tractions balanced to `enough` of the
 /// largest; where that is not found, states and displacements are what they were. Collective.
-/// most: steps.
+/// most: turns, about.
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough, int most);
 
 }  // namespace cdca

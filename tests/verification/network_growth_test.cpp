@@ -196,7 +196,7 @@ Crept crept(Model& model, double factor) {
   Forces given{none, none, none};
   model.supports().prescribe(model.spec().boundaries, factor, given.held);
   ContactSolves solves(model, *solver, factor, given);
-  return creep_to_balance(model, solves, given, 10 * model.spec().solver.tolerance, 100);
+  return creep_to_balance(model, solves, given, 10 * model.spec().solver.tolerance, 200);
 }
 
 /// Without friction there is one equilibrium, whatever the way there.
