@@ -15,13 +15,14 @@ struct DragStep {
   bool balanced = false;
   int turns = 0;
   double limits_off = 1.0, pulled = 0.0;  ///< as of FaceTurns
+  bool limits_agree = false;
 };
 
 DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule) {
   try {
     FaceTurns turns(model, solves, given, rule);
     const bool balanced = turns.turn() == FaceTurns::End::balanced;
-    return {balanced, turns.count(), turns.limits_off(), turns.pulled()};
+    return {balanced, turns.count(), turns.limits_off(), turns.pulled(), turns.limits_agree()};
   } catch (const SolveError&) {
     return {};  // springs of faces so different that no solve is exact; more drag helps here, too
   }
@@ -56,7 +57,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
       continue;
     }
     const bool rests = now.pulled <= at_rest;
-    crept.found = rests && close == enough && now.limits_off <= enough;
+    crept.found = rests && close == enough && now.limits_agree;
     if (crept.found) break;
     close = rests ? enough : std::clamp(part * now.pulled, enough, roughly);
     model.let_slip();

@@ -68,8 +68,8 @@ bool FaceTurns::once() {
   // while many faces still change their states it is of no use to be exact
   const bool near = settled_ || unbalanced_ <= nearly;
   // rounding can keep a face that is about to turn from settling for ever
-  const bool following =
-      !drags() && (count_ <= follow_at_once || (near && solves_.slowest().rounded));
+  const bool at_once = count_ <= follow_at_once || (near && solves_.slowest().rounded);
+  const bool following = !drags() && at_once;
   const double agreed = near ? 0.1 * enough : 0.1 * std::min(1.0, 10 * unbalanced_) * unbalanced_;
   const std::vector<double> from = model_.state();
   solves_.once({part_, (following || drags()) && !near ? 1e-3 : 0.0});
@@ -96,10 +96,9 @@ bool FaceTurns::once() {
   pulled_ = drags() ? solves_.held_back(from_anchor()) : before_drag;
   // rounding keeps solves from being exact when loose bodies have gone far
   const double wanted = drags() ? 0.1 * enough : part_ * tolerance;
-  const double balanced =
-      balance_after(solves_.slowest(), wanted, enough, solves_.rounding(change.largest));
+  balanced_to_ = balance_after(solves_.slowest(), wanted, enough, solves_.rounding(change.largest));
   cut_short_ += share < short_move;
-  return share == 1.0 && unbalanced_ <= balanced && (drags() || pulled_ <= enough);
+  return share == 1.0 && unbalanced_ <= balanced_to_ && (drags() || pulled_ <= enough);
 }
 
 std::vector<double> FaceTurns::from_anchor() const {

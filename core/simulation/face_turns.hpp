@@ -35,6 +35,8 @@ class FaceTurns {
   /// The same with the limits of friction that the pressures ask for: in drag they stay as they
   /// were at first.
   double limits_off() const { return limits_off_; }
+  /// Do those agree as well as solves and rounding let tractions be told?
+  bool limits_agree() const { return limits_off_ <= balanced_to_; }
   /// Taken by springs of bodies in the last turn, as a part of all forces.
   double pulled() const { return pulled_; }
 
@@ -50,6 +52,7 @@ class FaceTurns {
   double part_ = 1.0;  ///< of the solver's tolerance
   double weak_;        ///< springs of bodies
   double unbalanced_ = 1.0, limits_off_ = 1.0, pulled_ = 0.0;
+  double balanced_to_ = -1.0;  ///< of the last turn; below 0: its solve was not exact
   bool settled_ = false;
   int count_ = 0;      ///< turns so far
   int cut_short_ = 0;  ///< short moves so far
