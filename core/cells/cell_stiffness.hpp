@@ -56,7 +56,7 @@ class CellStiffness final : public CellSystem {
   const RegularRuns& regular() const { return regular_; }
   /// Of all cells that do not use the common stencil; columns of ghosts included.
   const StiffnessRows& rows() const { return rows_; }
-  /// Values of the rows without springs of faces and weak springs.
+  /// Values of the rows without springs of faces and weak springs: what cracks alone decide.
   const std::vector<double>& without_springs() const {
     return without_springs_.empty() ? rows_.value : without_springs_;
   }
@@ -85,6 +85,7 @@ class CellStiffness final : public CellSystem {
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<char>& regular, const CarriedCells* carried);
+  /// Springs of faces, on top of the rows.
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
   /// only, are held at 0: of one cell, and of all cells of a zone of one element.

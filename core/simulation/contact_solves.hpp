@@ -31,7 +31,7 @@ class ContactSolves {
   /// was built lies on top of it for as long as the solves are not much slower for that. weak: of
   /// the springs of loose bodies.
   void turn_springs(double weak);
-  /// Makes the stiffness anew.
+  /// Brings the stiffness itself up to date, with nothing on top of it.
   void build_stiffness(double weak);
 
   std::vector<ContactGap> gaps() const;

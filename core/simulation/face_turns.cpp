@@ -69,12 +69,11 @@ bool FaceTurns::once() {
   const bool near = settled_ || unbalanced_ <= nearly;
   // rounding can keep a face that is about to turn from settling for ever
   const bool at_once = count_ <= follow_at_once || (near && solves_.slowest().rounded);
-  const bool following = !drags() && at_once;
+  const auto limits_follow = [&] { return !drags() && (at_once || settled_); };
   const double agreed = near ? 0.1 * enough : 0.1 * std::min(1.0, 10 * unbalanced_) * unbalanced_;
   const std::vector<double> from = model_.state();
-  solves_.once({part_, (following || drags()) && !near ? 1e-3 : 0.0});
-  if (following || (settled_ && !drags()))
-    solves_.turn_limits(std::max(agreed, 0.1 * enough), part_);
+  solves_.once({part_, (at_once || drags()) && !near ? 1e-3 : 0.0});
+  if (limits_follow()) solves_.turn_limits(std::max(agreed, 0.1 * enough), part_);
   const LineSearch search(model_, given_.external, from, given_.anchor);
   const double before_drag = drags() ? 0.0 : solves_.held_back(search.move());
   const double share = search.find(before_drag > enough ? farthest : 1.0);
@@ -82,8 +81,7 @@ bool FaceTurns::once() {
   const auto gaps = search.gaps(share);
   const bool whole = share >= 1.0;
   settled_ = whole && contact.settled(gaps);
-  const bool follow = following || (settled_ && !drags());
-  const auto limits = follow ? contact.limits_at(gaps) : contact.limits();
+  const auto limits = limits_follow() ? contact.limits_at(gaps) : contact.limits();
   const auto change = contact.respond(gaps, limits);
   // bodies that only others hold are let go little by little
   const double before = weak_;

@@ -185,6 +185,23 @@ TEST(CarriedFaces, MostCellsAreTheSame) {
   EXPECT_GT(model->hierarchy().factors().reused(), all / 3);
 }
 
+/// What resists the motion of bodies is the same whatever their faces do; otherwise turns that end
+/// with the drag in balance would aim at something else each time.
+TEST(CarriedFaces, DragStaysWhileFacesTurn) {
+  const auto model = built(with_faces(plate_of(20, 40, three_cracks())));
+  model->hold_all_bodies(true);
+  const auto drags = [&] {
+    std::vector<double> found;
+    model->renew_stiffness(0.1);
+    for (const auto& spring : model->stiffness().springs()) found.push_back(spring.stiffness);
+    return found;
+  };
+  const auto touching_faces = drags();
+  for (ContactPatch& p : model->contact().patches()) p.now = ContactAnswer();
+  EXPECT_EQ(drags(), touching_faces);
+  EXPECT_GT(touching_faces.size(), 1600U) << "of all cells";
+}
+
 /// Of a plate in which one tip grows, cells far from it are as they were.
 TEST(CarriedCells, MostCellsAreTheSame) {
   const auto model = built(plate_of(60, 120, three_cracks()));
