@@ -11,6 +11,7 @@ namespace {
 constexpr double exact = 5e-7;   ///< of the index
 constexpr double narrow = 1e-6;  ///< of the factor: the index jumps there
 constexpr double held = 0.3;     ///< less than this part of a proportional slope: faces are held
+constexpr double up = 0.5, down = 0.25;             ///< the longest steps after the first growth
 constexpr double of_last = 10.0, of_first = 100.0;  ///< the highest factor, in those of growth
 
 }  // namespace
@@ -60,17 +61,19 @@ void CriticalFactor::tell(double index) {
 double CriticalFactor::higher(const Trial& now) const {
   const double slope = (now.index - before_.index) / (now.factor - before_.factor);
   const double step = now.factor - before_.factor;
+  const double longest = (virgin_ ? 9 : up) * now.factor;
   if (slope > 0.0) {
-    const double most = tried_ == 1 ? 9 * now.factor : std::max(4 * step, 0.02 * now.factor);
-    return now.factor + std::min((1.0 - now.index) / slope, most);
+    const double most = tried_ == 1 ? longest : std::max(4 * step, 0.02 * now.factor);
+    return now.factor + std::min({(1.0 - now.index) / slope, most, longest});
   }
-  return now.factor + std::max(2 * step, 0.02 * now.factor);
+  return now.factor + std::min(std::max(2 * step, 0.02 * now.factor), longest);
 }
 
 double CriticalFactor::lower(const Trial& now) const {
   const double slope = (now.index - before_.index) / (now.factor - before_.factor);
   const double step = slope > 0.0 ? (now.index - 1.0) / slope : now.factor;
-  return now.factor - std::clamp(step, 1e-9 * now.factor, 0.9 * now.factor);
+  const double longest = virgin_ ? 0.9 * now.factor : std::min(0.9 * now.factor, down * start_);
+  return now.factor - std::clamp(step, 1e-9 * now.factor, longest);
 }
 
 double CriticalFactor::between(const Trial& now) {

@@ -13,6 +13,9 @@ namespace cdca {
 /// it, even if less load would open it sooner: the load only goes down where tips are beyond
 /// growing. Where friction holds the faces when it goes down, unloading does not stop a tip: it
 /// grows under the load that is there, with an index above 1.
+///
+/// After the first growth it goes by steps that let the way of friction be followed: at most half
+/// of the factor up, and a quarter of the last growth's down.
 class CriticalFactor {
  public:
   /// last, first: factors of the last and of the first growth; 0 before any, when the index is
@@ -23,6 +26,11 @@ class CriticalFactor {
   double next() const { return next_; }
   /// Tells the greatest index there; 0 if no tip is opened.
   void tell(double index);
+
+  /// The body passes through the last trial, whatever the answer: it lies on the way there.
+  bool on_the_way() const { return !virgin_ && !last_trial_ && !(short_of_ && beyond_); }
+  /// The answer is the factor of the last growth: the body has gone nowhere from there.
+  bool back_at_start() const { return last_trial_ && next_ == start_; }
 
   /// The last factor that was tried is the answer.
   bool ended() const { return ended_; }

@@ -47,7 +47,12 @@ void EnergyLedger::new_cracks(const Model& model, const Equilibrium& e) {
   keep(model, e, 0.0);
 }
 
-void EnergyLedger::new_cracks_and_factor(const Model& model, const Equilibrium& e, double factor) {
+void EnergyLedger::new_factor(const Model& model, const Equilibrium& e, double factor) {
+  if (!state_.empty()) {
+    new_loads(model, e);
+    factor_ = factor;
+    return;
+  }
   const double loads = model.stiffness().dot(e.external, model.state()) / factor;
   const double supports = model.stiffness().dot(e.supports, model.state()) / factor;
   const double loads_before = factor_ > 0 ? potential_ / factor_ : 0.0;
@@ -56,7 +61,10 @@ void EnergyLedger::new_cracks_and_factor(const Model& model, const Equilibrium& 
   external_work_ += 0.5 * (factor_ + factor) * (loads - loads_before) +
                     0.5 * (supports_before + supports) * (factor - factor_);
   keep(model, e, factor);
-  state_.clear();  // the cracks grow before the next one
+}
+
+void EnergyLedger::let_cracks_grow() {
+  state_.clear();
   forces_.clear();
 }
 

@@ -29,9 +29,11 @@ class EnergyLedger {
   void new_loads(const Model& model, const Equilibrium& equilibrium);
   /// The next equilibrium under the same loads with longer cracks.
   void new_cracks(const Model& model, const Equilibrium& equilibrium);
-  /// As new_cracks(), with loads and displacements both proportional to a factor that changed from
-  /// the last equilibrium's to this one's.
-  void new_cracks_and_factor(const Model& model, const Equilibrium& equilibrium, double factor);
+  /// The next equilibrium under loads and displacements proportional to a factor. Where cracks have
+  /// grown since the last one, factor and cracks are taken to have changed in step with each other.
+  void new_factor(const Model& model, const Equilibrium& equilibrium, double factor);
+  /// The next equilibrium will be one of other cracks.
+  void let_cracks_grow();
 
   /// Friction has taken so much since the last time.
   void add_friction(double work) { friction_ += work; }

@@ -66,6 +66,13 @@ bool turn_plans(const Model& model, double load_factor, std::vector<GrowthPlan>&
 
 }  // namespace
 
+double greatest_index(const std::vector<TipAssessment>& tips) {
+  double u = 0.0;
+  for (const TipAssessment& tip : tips)
+    u = std::max({u, tip.judgement.u_tension, tip.judgement.u_shear});
+  return u;
+}
+
 GrowthCriterion::GrowthCriterion(const Model& model) : spec_(model.spec().growth) {
   const MaterialSpec& m = model.spec().material;
   strength_.tensile = m.tensile_strength;

@@ -18,6 +18,9 @@ struct TipAssessment {
   TipJudgement judgement;
 };
 
+/// Of all tips, in tension and shear; 0 where there is none.
+double greatest_index(const std::vector<TipAssessment>& tips);
+
 /// The fracture criterion of a case on its grid.
 class GrowthCriterion {
  public:

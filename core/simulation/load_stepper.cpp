@@ -2,7 +2,8 @@
 #include "core/simulation/load_stepper.hpp"
 
 #include "core/base/errors.hpp"
-#include "core/simulation/critical_factor.hpp"
+#include "core/simulation/critical_state.hpp"
+#include "core/simulation/recorded_solve.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,19 +30,6 @@ void compare_registries(const Model& model) {
   }
 }
 
-Equilibrium solve(Model& model, const EquilibriumSolver& solver, double factor, Recorder& recorder,
-                  FaceMotion faces = FaceMotion::creeping) {
-  const Stopwatch watch;
-  Equilibrium equilibrium = find_equilibrium(model, solver, factor, faces);
-  recorder.solved(equilibrium, watch.seconds());
-  return equilibrium;
-}
-
-/// What faces have slipped and where they are open becomes history.
-void accept(Model& model, Model::Since since, EnergyLedger& energy) {
-  energy.add_friction(model.accept_contact(since));
-}
-
 /// Equilibrium at load factor `to`; where touching faces do not settle, by way of the middle, and
 /// so on, at most `halvings` times, and then by creeping there under the new loads.
 Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, double to,
@@ -49,35 +37,28 @@ Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, do
   const Model::ContactMemory memory = model.contact_memory();
   const std::vector<double> state = model.state();
   try {
-    const Equilibrium equilibrium = solve(model, solver, to, recorder, FaceMotion::balanced);
+    const Equilibrium equilibrium =
+        solve_recorded(model, solver, to, recorder, FaceMotion::balanced);
     energy.new_loads(model, equilibrium);
-    accept(model, Model::Since::other_loads, energy);
+    accept_contact(model, Model::Since::other_loads, energy);
     return equilibrium;
   } catch (const ContactError&) {
   }
   model.remember(memory);
   model.state() = state;
-  model.build_stiffness();
+  model.renew_stiffness();
   if (halvings == 0) {
     // first the loads, while faces keep to what they do; then the faces, while loads are at rest
-    energy.new_loads(model, solve(model, solver, to, recorder, FaceMotion::none));
-    accept(model, Model::Since::other_loads, energy);
-    const Equilibrium equilibrium = solve(model, solver, to, recorder);
+    energy.new_loads(model, solve_recorded(model, solver, to, recorder, FaceMotion::none));
+    accept_contact(model, Model::Since::other_loads, energy);
+    const Equilibrium equilibrium = solve_recorded(model, solver, to, recorder);
     energy.new_cracks(model, equilibrium);
-    accept(model, Model::Since::other_cracks, energy);
+    accept_contact(model, Model::Since::other_cracks, energy);
     return equilibrium;
   }
   const double middle = 0.5 * (from + to);
   reach(model, solver, from, middle, halvings - 1, recorder, energy);
   return reach(model, solver, middle, to, halvings - 1, recorder, energy);
-}
-
-double greatest_index(const std::vector<TipAssessment>& tips) {
-  double u = 0.0;
-  for (const TipAssessment& tip : tips) {
-    u = std::max({u, tip.judgement.u_tension, tip.judgement.u_shear});
-  }
-  return u;
 }
 
 void advance(Model& model, const std::vector<Increment>& increments, int step, int cycle) {
@@ -132,30 +113,14 @@ Equilibrium solve_grown(Model& model, const EquilibriumSolver& solver, double fa
     const std::vector<double> state = model.state();
     model.start_from(*growth.trial);
     try {
-      return solve(model, solver, factor, recorder, FaceMotion::balanced);
+      return solve_recorded(model, solver, factor, recorder, FaceMotion::balanced);
     } catch (const ContactError&) {
     }
     model.remember(memory);
     model.state() = state;
-    model.build_stiffness();
+    model.renew_stiffness();
   }
-  return solve(model, solver, factor, recorder);
-}
-
-/// An equilibrium found at factor 1, at another factor.
-void scale(Model& model, Equilibrium& equilibrium, std::vector<TipAssessment>& tips,
-           double factor) {
-  for (double& u : model.state()) u *= factor;
-  for (double& f : equilibrium.external) f *= factor;
-  for (double& f : equilibrium.supports) f *= factor;
-  for (Vec2& r : equilibrium.reactions) r *= factor;
-  equilibrium.strain_energy *= factor * factor;
-  for (TipAssessment& tip : tips) {
-    tip.intensity.k1 *= factor;
-    tip.intensity.k2 *= factor;
-    tip.judgement.u_tension *= factor;
-    tip.judgement.u_shear *= factor;
-  }
+  return solve_recorded(model, solver, factor, recorder);
 }
 
 /// The first load step that is left to be done: the case may have other steps now than it had.
@@ -164,52 +129,6 @@ std::size_t next_step(const std::vector<double>& factors, const Progress& at) {
   const double margin = 1e-9 * at.load_factor;
   const double from = at.cycles > 0 ? at.load_factor - margin : at.load_factor + margin;
   return std::size_t(std::lower_bound(factors.begin(), factors.end(), from) - factors.begin());
-}
-
-/// The equilibrium at which the first tip reaches its index of 1, with the assessment of all tips.
-struct CriticalState {
-  Equilibrium equilibrium;
-  std::vector<TipAssessment> tips;
-  double factor = 1.0;
-  bool grows = true;  ///< some tip is opened by the loads
-};
-
-/// Without contact everything is proportional to the load factor.
-CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
-                                 const GrowthCriterion& criterion, Recorder& recorder) {
-  CriticalState found{solve(model, solver, 1.0, recorder), {}, 1.0, true};
-  found.tips = criterion.assess(model, 1.0);
-  const double u = greatest_index(found.tips);
-  found.grows = u > 0.0;
-  if (found.grows) found.factor = 1.0 / u;
-  scale(model, found.equilibrium, found.tips, found.factor);
-  return found;
-}
-
-/// Every trial begins from the faces as they are.
-CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
-                                   const GrowthCriterion& criterion, Recorder& recorder,
-                                   const Progress& at) {
-  constexpr int most = 100;
-  const Model::ContactMemory memory = model.contact_memory();
-  CriticalFactor search(at.load_factor, at.first_factor);
-  CriticalState found;
-  for (int round = 0; round < most; ++round) {
-    if (round > 0) {
-      model.remember(memory);
-      model.build_stiffness();
-    }
-    found.factor = search.next();
-    found.equilibrium = solve(model, solver, found.factor, recorder);
-    found.tips = criterion.assess(model, found.factor);
-    search.tell(greatest_index(found.tips));
-    if (!search.ended()) continue;
-    found.grows = search.grows();
-    return found;
-  }
-  throw ContactError(
-      "the load factor at which the next tip grows was not found; the states of "
-      "touching faces change with it.");
 }
 
 }  // namespace
@@ -253,7 +172,7 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
         break;
       }
       energy.new_cracks(model, equilibrium);
-      accept(model, Model::Since::other_cracks, energy);
+      accept_contact(model, Model::Since::other_cracks, energy);
       tips = criterion.assess(model, result.load_factor);
       at.cycles = cycle;
       if (recorder.rest(model, energy, at)) return;
@@ -278,14 +197,14 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
   const GrowthCriterion criterion(model);
   auto& [at, energy] = start;
   double& largest = at.largest_factor;
-  const bool linear = model.contact().empty();
+  energy.let_cracks_grow();  // as they had where a run goes on
   for (int event = at.steps + 1;; ++event) {
     compare_registries(model);
     bool separated = at.joined && !model.joins_loaded_boundaries();
     CriticalState now;
     if (!separated) {
-      now = linear ? scaled_to_critical(model, *solver, criterion, recorder)
-                   : searched_to_critical(model, *solver, criterion, recorder, at);
+      now = find_critical(model, *solver, criterion, {at.load_factor, at.first_factor, energy},
+                          recorder);
       separated = at.joined && !model.joins_loaded_boundaries();
     }
     note_fragments(model, event, 0);
@@ -305,17 +224,19 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
     StepResult result{event, factor, 1, false};
     result.last = !now.grows || event == spec.loading.max_events ||
                   factor < spec.loading.min_factor * largest;
-    energy.new_cracks_and_factor(model, now.equilibrium, factor);
-    accept(model, Model::Since::other_loads, energy);
+    energy = std::move(now.energy);
+    energy.new_factor(model, now.equilibrium, factor);
+    accept_contact(model, Model::Since::other_loads, energy);
     NextGrowth growth;
     if (!result.last)
       growth = next_growth(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);
     recorder.cycle(model, event, 0, now.tips, growth.increments);
     recorder.step(model, result, now.equilibrium, energy, now.tips);
     if (result.last) return;
+    energy.let_cracks_grow();
     advance(model, growth.increments, event, 1);
     if (growth.trial) model.start_from(*growth.trial);
-    if (linear) {
+    if (model.contact().empty()) {
       for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1
     }
     at.steps = event;

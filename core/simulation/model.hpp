@@ -35,7 +35,7 @@ class Model {
   /// stiffness.
   void build_stiffness(double weak_share = 1e-3);
   /// The same, where only springs have changed since: the rest is taken over. Collective.
-  void renew_stiffness(double weak_share);
+  void renew_stiffness(double weak_share = 1e-3);
   /// The springs of faces are what the patches answer now, and weak springs have this share,
   /// without new rows and factors. Only for the multilevel solver, whose scales stay as they are.
   /// Collective.

@@ -29,7 +29,7 @@ Found found(double last, const std::function<double(double)>& index, double firs
 }
 
 TEST(CriticalFactor, ProportionalIndexTakesTwoTrials) {
-  for (const double last : {0.0, 2.0, 7.0}) {
+  for (const double last : {0.0, 3.0, 5.0}) {
     const Found f = found(last, [](double s) { return s / 4; });
     EXPECT_NEAR(f.factor, 4.0, 1e-6);
     EXPECT_EQ(f.trials, 2);
@@ -37,6 +37,28 @@ TEST(CriticalFactor, ProportionalIndexTakesTwoTrials) {
   }
   const Found far = found(0.0, [](double s) { return 1e-7 * s; });
   EXPECT_NEAR(far.factor, 1e7, 10.0);
+}
+
+/// The way of friction is followed in steps; all but the last trial but one lie on it.
+TEST(CriticalFactor, GoesLongWaysInSteps) {
+  for (const double last : {1.0, 40.0}) {
+    CriticalFactor search(last, last);
+    double before = last;
+    int on_the_way = 0;
+    while (!search.ended()) {
+      const double factor = search.next();
+      EXPECT_LE(factor, 1.5 * before * (1 + 1e-12));
+      EXPECT_GE(factor, before - 0.25 * last * (1 + 1e-12));
+      search.tell(factor / 4);
+      on_the_way += search.on_the_way() && !search.ended();
+      before = factor;
+    }
+    EXPECT_NEAR(before, 4.0, 1e-5);
+    EXPECT_GE(on_the_way, 4);
+  }
+  CriticalFactor first(0.0, 0.0);
+  first.tell(1e-3);
+  EXPECT_FALSE(first.on_the_way()) << "nothing is known to be a way to the first growth";
 }
 
 /// Friction holds the faces at first, and the wings close a little; later the faces slide again.
