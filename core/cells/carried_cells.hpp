@@ -35,9 +35,11 @@ class CarriedCells {
   bool same(LocalId node) const { return same_[std::size_t(node)] != 0; }
   /// but perhaps for springs.
   bool same_rows(LocalId node) const { return same_rows_[std::size_t(node)] != 0; }
-  /// The number of an old unknown of a cell that has the unknowns that it had, else -1. Numbers
-  /// keep their order.
-  LocalId now(LocalId unknown) const { return now_[std::size_t(unknown)]; }
+  /// The number of an old unknown of a cell that has the unknowns that it had. Numbers keep their
+  /// order. Of other cells the two plain unknowns have one, and the rest -1.
+  LocalId now(LocalId unknown) const {
+    return unknown < plain_ ? unknown : now_[std::size_t(unknown - plain_)];
+  }
   const CellStiffness& before() const { return before_; }
   const std::vector<GlobalId>& changed() const { return changed_; }
   const std::vector<GlobalId>& turned() const { return turned_; }
@@ -50,6 +52,9 @@ class CarriedCells {
   void carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                       const CellUnknowns& unknowns, const std::vector<char>& held,
                       const std::vector<double>& springs);
+  void carry_plain(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+                   const CellUnknowns& unknowns, const std::vector<char>& held,
+                   const std::vector<double>& springs);
   void mark_turned(const LocalMesh& mesh);
   /// Cells of a tip zone are the same together, or none is.
   static void mark_zones(const CellUnknowns& unknowns, std::vector<char>& same);
@@ -58,7 +63,8 @@ class CarriedCells {
   const CellStiffness& before_;
   std::vector<GlobalId> changed_, turned_;
   std::vector<char> same_rows_, same_;  ///< by node
-  std::vector<LocalId> now_;
+  LocalId plain_;  ///< so many unknowns come first: the plain ones of own cells, always the same
+  std::vector<LocalId> now_;  ///< of the others
 };
 
 }  // namespace cdca

@@ -135,14 +135,19 @@ LocalId CellUnknowns::of_piece(LocalId node, int piece) const {
 
 std::vector<LocalId> CellUnknowns::of_cell(LocalId node) const {
   std::vector<LocalId> unknowns;
-  for (int p = 0; p < pieces(node); ++p) {
-    unknowns.push_back(of_piece(node, p));
-    unknowns.push_back(of_piece(node, p) + 1);
-  }
-  for (const TipUnknowns& tip : tips(node)) {
-    for (LocalId k = 0; k < tip.count; ++k) unknowns.push_back(tip.first + k);
-  }
+  append_cell(node, unknowns);
   return unknowns;
+}
+
+void CellUnknowns::append_cell(LocalId node, std::vector<LocalId>& unknowns) const {
+  const auto append = [&](LocalId first, LocalId count) {
+    for (LocalId k = 0; k < count; ++k) unknowns.push_back(first + k);
+  };
+  append(of_piece(node, 0), 2);
+  const SpecialCell* cell = special(node);
+  if (!cell) return;
+  append(cell->extra, 2 * (cell->pieces.count - 1));
+  for (const TipUnknowns& tip : cell->tips) append(tip.first, tip.count);
 }
 
 int CellUnknowns::piece(LocalId node, std::size_t slot, int part) const {
@@ -162,15 +167,11 @@ std::span<const TipUnknowns> CellUnknowns::tips(LocalId node) const {
 
 std::vector<SharedUnknowns> CellUnknowns::shared(const LocalMesh& mesh) const {
   std::vector<SharedUnknowns> lists;
-  const auto append = [this](LocalId n, std::vector<LocalId>& list) {
-    const auto unknowns = of_cell(n);
-    list.insert(list.end(), unknowns.begin(), unknowns.end());
-  };
   for (const SharedNodes& nodes : mesh.shared()) {
     SharedUnknowns shared;
     shared.rank = nodes.rank;
-    for (const LocalId n : nodes.owned) append(n, shared.owned);
-    for (const LocalId n : nodes.ghosts) append(n, shared.ghosts);
+    for (const LocalId n : nodes.owned) append_cell(n, shared.owned);
+    for (const LocalId n : nodes.ghosts) append_cell(n, shared.ghosts);
     lists.push_back(std::move(shared));
   }
   return lists;

@@ -55,6 +55,8 @@ class CellUnknowns {
   LocalId of_piece(LocalId node, int piece) const;
   /// Every unknown of a cell in order: pieces, then near-tip.
   std::vector<LocalId> of_cell(LocalId node) const;
+  /// The same, behind what is in the list.
+  void append_cell(LocalId node, std::vector<LocalId>& unknowns) const;
   /// The piece that a part of an element round the node belongs to. slot as in CellPieces.
   int piece(LocalId node, std::size_t slot, int part) const;
   int pieces(LocalId node) const;

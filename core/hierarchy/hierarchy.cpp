@@ -81,7 +81,7 @@ class Hierarchy::Level final : public Scale {
   }
   void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors,
                     const Level* before, const CarriedCells* carried) {
-    plain_ = PlainCells(*mesh_, *unknowns_, *cells_, plain, plans.near_cracks);
+    plain_ = PlainCells(*mesh_, *cells_, plain, plans.near_cracks);
     windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors,
                                          before ? before->windows_.get() : nullptr, carried);
   }
@@ -168,9 +168,9 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
     const Halo halo = level.halo(communicator);
-    supports.coarsen(levels_[k]->stiffness(), [&](const std::vector<double>& fine) {
+    supports.coarsen(levels_[k]->stiffness(), [&](const FewValues& fine) {
       std::vector<double> sum(std::size_t(level.unknowns().count()), 0.0);
-      levels_[k]->transfer().to_coarse(fine, halo, sum);
+      levels_[k]->transfer().few_to_coarse(fine, halo, sum);
       return sum;
     });
     const bool coarsest = k + 1 == meshes_.size();

@@ -23,8 +23,7 @@ class Windows::Builder {
         factors_(factors),
         before_(before),
         carried_(carried),
-        held_(std::size_t(unknowns.count()), 0),
-        place_(std::size_t(unknowns.count()), outside) {
+        held_(std::size_t(unknowns.count()), 0) {
     for (const LocalId u : windows.cells_.held()) held_[std::size_t(u)] = 1;
   }
 
@@ -127,6 +126,7 @@ class Windows::Builder {
 
   /// Own members, their couplings to cells outside, and their rows inside.
   Share make_share(const std::vector<GlobalId>& nodes, Contribution& own) {
+    place_.resize(std::size_t(unknowns_.count()), outside);  // if any window is not kept
     Share share;
     std::map<LocalId, Key> ghosts;
     for (const GlobalId id : nodes) {

@@ -91,9 +91,8 @@ void Model::build_cells() {
 
 void Model::find_bodies() {
   const LoadedPieces loaded(basis(), spec_.boundaries);
-  bodies_ = std::make_unique<Bodies>(
-      basis(), supports_.flags(unknowns_.count()),
-      [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
+  bodies_ = std::make_unique<Bodies>(basis(), supports_.flags(unknowns_.count()), loaded.marks(),
+                                     communicator_);
   if (contact_.empty()) return;
   spots_.find_bodies([&](GridIndex e, int part) { return int(body_of(e, part)); }, contact_,
                      communicator_);
