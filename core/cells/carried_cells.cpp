@@ -40,9 +40,7 @@ bool same_unknowns(const SpecialCell& a, const SpecialCell& b) {
 
 }  // namespace
 
-std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vector<TipZone>& zones,
-                                       const ElementCuts& after,
-                                       const std::vector<TipZone>& zones_after) {
+std::vector<GlobalId> changed_cuts(const ElementCuts& before, const ElementCuts& after) {
   std::vector<GlobalId> changed;
   for (const auto* cuts : {&before, &after}) {
     for (const GlobalId id : cuts->touched_elements()) {
@@ -50,10 +48,17 @@ std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vec
       if (!after.paths().same_steps(before.paths(), e)) changed.push_back(id);
     }
   }
-  add_elements_of_others(zones, zones_after, changed);
-  add_elements_of_others(zones_after, zones, changed);
   sort_once(changed);
   return changed;
+}
+
+std::vector<GlobalId> with_changed_zones(std::vector<GlobalId> elements,
+                                         const std::vector<TipZone>& before,
+                                         const std::vector<TipZone>& after) {
+  add_elements_of_others(before, after, elements);
+  add_elements_of_others(after, before, elements);
+  sort_once(elements);
+  return elements;
 }
 
 std::vector<GlobalId> with_other_sides(std::vector<GlobalId> elements, const ElementCuts& cuts) {
@@ -88,11 +93,10 @@ std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements,
 
 CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                            const CellStiffness& before, const CellUnknowns& unknowns,
-                           std::vector<GlobalId> changed, std::vector<GlobalId> turned,
-                           const std::vector<char>& held, const std::vector<double>& springs)
+                           ChangedElements changed, const std::vector<char>& held,
+                           const std::vector<double>& springs)
     : before_(before),
       changed_(std::move(changed)),
-      turned_(std::move(turned)),
       same_rows_(std::size_t(mesh.node_count()), 1),
       same_(same_rows_),
       plain_(2 * mesh.owned_nodes()),
@@ -110,7 +114,7 @@ void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
 }
 
 void CarriedCells::mark_changed(const LocalMesh& mesh, const CellUnknowns& unknowns) {
-  for (const GlobalId id : changed_) {
+  for (const GlobalId id : changed_.functions) {
     for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
       const LocalId n = mesh.find_node(corner);
       if (n < 0) continue;
@@ -122,7 +126,7 @@ void CarriedCells::mark_changed(const LocalMesh& mesh, const CellUnknowns& unkno
 }
 
 void CarriedCells::mark_turned(const LocalMesh& mesh) {
-  for (const GlobalId id : turned_) {
+  for (const GlobalId id : changed_.turned) {
     for (const LocalId n : mesh.element_nodes(mesh.grid().element_index(id))) {
       if (n >= 0) same_[std::size_t(n)] = 0;
     }

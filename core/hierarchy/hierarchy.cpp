@@ -153,15 +153,16 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   levels_[0]->set_smoother(finest_plans_, element, factors_, level_before(0), finest.carried);
   CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
-  std::vector<GlobalId> changed, turned;
-  if (finest.carried) changed = finest.carried->changed(), turned = finest.carried->turned();
+  ChangedElements changed;
+  if (finest.carried) changed = finest.carried->changed();
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     auto own_parts = std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic);
     const Level* was = level_before(k + 1);
     if (was) {
-      changed = parents_of(changed, finer->grid());
-      turned = parents_of(turned, finer->grid());
-      own_parts->take_over(*was->parts(), changed);
+      changed.cuts = parents_of(changed.cuts, finer->grid());
+      changed.turned = parents_of(changed.turned, finer->grid());
+      changed.functions = changed.cuts;  // there are no near-tip functions
+      own_parts->take_over(*was->parts(), changed.cuts);
     }
     levels_.emplace_back(new Level(meshes_[k], std::move(own_parts), communicator));
     Level& level = *levels_.back();
@@ -177,7 +178,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     std::optional<CarriedCells> carried;
     if (was) {
       carried.emplace(meshes_[k], was->unknowns(), was->stiffness(), level.unknowns(), changed,
-                      turned, supports.held(), supports.springs());
+                      supports.held(), supports.springs());
     }
     const CarriedCells* same = carried ? &*carried : nullptr;
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);

@@ -155,7 +155,7 @@ void Model::let_slip() {
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
 void Model::renew_stiffness(double weak_share) {
-  const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {}, turned_elements(),
+  const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {{}, {}, turned_elements()},
                              supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
 }
@@ -216,11 +216,16 @@ void Model::lay_cracks(CrackRegistry registry) {
     make_stiffness(weak_share, nullptr);
     return;
   }
-  auto changed = changed_elements(old_cuts, old_zones, cuts_, zones_);
-  if (!contact_.empty()) changed = with_other_sides(std::move(changed), cuts_);
+  ChangedElements changed;
+  changed.cuts = changed_cuts(old_cuts, cuts_);
+  changed.functions = with_changed_zones(changed.cuts, old_zones, zones_);
+  if (!contact_.empty()) {
+    changed.cuts = with_other_sides(std::move(changed.cuts), cuts_);
+    changed.functions = with_other_sides(std::move(changed.functions), cuts_);
+  }
+  changed.turned = turned_elements();
   const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_, std::move(changed),
-                             turned_elements(), supports_.flags(unknowns_.count()),
-                             springs(weak_share));
+                             supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
 }
 
