@@ -33,7 +33,7 @@ void add_elements_of_others(const std::vector<TipZone>& zones, const std::vector
 
 /// A cell has the same pieces, of the same parts, and as many near-tip unknowns.
 bool same_unknowns(const SpecialCell& a, const SpecialCell& b) {
-  return a.pieces == b.pieces &&
+  return (a.pieces == b.pieces || *a.pieces == *b.pieces) &&
          std::equal(a.tips.begin(), a.tips.end(), b.tips.begin(), b.tips.end(),
                     [](const TipUnknowns& s, const TipUnknowns& t) { return s.count == t.count; });
 }
@@ -188,7 +188,7 @@ void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unk
       differs_round(mesh, n);
       continue;
     }
-    bool alike = carry(n, was.extra, is->extra, 2 * (was.pieces.count - 1));
+    bool alike = carry(n, was.extra, is->extra, 2 * (was.pieces->count - 1));
     for (std::size_t k = 0; k < was.tips.size(); ++k)
       alike = carry(n, was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
     if (!alike) differs_round(mesh, n);

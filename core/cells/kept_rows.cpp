@@ -21,12 +21,13 @@ KeptRows::KeptRows(const CarriedCells* carried) : carried_(carried) {
 bool KeptRows::keep(LocalId node, const std::vector<LocalId>& unknowns) {
   if (!carried_ || !carried_->same_rows(node)) return false;
   rows_of_cell_.clear();
-  auto at = now_.begin();
   for (const LocalId u : unknowns) {
-    // those of a cell mostly follow each other
-    if (at == now_.end() || *at != u) at = std::lower_bound(now_.begin(), now_.end(), u);
-    if (at == now_.end() || *at != u) return false;
-    rows_of_cell_.push_back(row_[std::size_t(at++ - now_.begin())]);
+    // cells and their unknowns mostly follow each other
+    if (next_ == now_.size() || now_[next_] != u) {
+      next_ = std::size_t(std::lower_bound(now_.begin(), now_.end(), u) - now_.begin());
+      if (next_ == now_.size() || now_[next_] != u) return false;
+    }
+    rows_of_cell_.push_back(row_[next_++]);
   }
   for (const std::size_t r : rows_of_cell_) kept_[r] = 1;
   return true;

@@ -24,6 +24,7 @@ class KeptRows {
   std::vector<std::size_t> row_;  ///< and the row before of each of them
   std::vector<char> kept_;        ///< by row before
   std::vector<std::size_t> rows_of_cell_;
+  std::size_t next_ = 0;  ///< of now_: what will probably be asked for next
 };
 
 }  // namespace cdca

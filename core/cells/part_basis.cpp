@@ -12,11 +12,11 @@ namespace {
 /// On which side of the zone's crack all of a piece lies, if it does.
 FaceSide side_of_piece(const BasisContext& c, const TipZone& zone, LocalId node, int piece) {
   const SpecialCell& cell = *c.unknowns.special(node);
-  if (cell.pieces.count == 1) return FaceSide::none;
+  if (cell.pieces->count == 1) return FaceSide::none;
   const auto elements = c.mesh.grid().elements_round(c.mesh.node(node));
   bool above = false, below = false;
   for (std::size_t slot = 0; slot < 4; ++slot) {
-    const auto& parts = cell.pieces.piece[slot];
+    const auto& parts = cell.pieces->piece[slot];
     for (std::size_t part = 0; part < parts.size(); ++part) {
       if (parts[part] != piece) continue;
       const CutElement* cut = c.cuts.find(elements[slot]);

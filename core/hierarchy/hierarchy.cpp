@@ -34,10 +34,11 @@ class Hierarchy::Level final : public Scale {
       : mesh_(&mesh), unknowns_(&unknowns), cells_(&cells) {}
 
   /// A coarse scale. own_rows: cells of windows, or all cells of the coarsest.
-  Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator)
+  Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator,
+        const CellUnknowns::Kept* kept)
       : parts_(std::move(parts)),
-        own_unknowns_(
-            std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(), communicator)),
+        own_unknowns_(std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(),
+                                                     communicator, kept)),
         mesh_(&mesh),
         unknowns_(own_unknowns_.get()) {}
 
@@ -158,13 +159,16 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     auto own_parts = std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic);
     const Level* was = level_before(k + 1);
+    std::optional<CellUnknowns::Kept> kept;
     if (was) {
       changed.cuts = parents_of(changed.cuts, finer->grid());
       changed.turned = parents_of(changed.turned, finer->grid());
       changed.functions = changed.cuts;  // there are no near-tip functions
       own_parts->take_over(*was->parts(), changed.cuts);
+      kept.emplace(CellUnknowns::Kept{was->unknowns(), changed.cuts});
     }
-    levels_.emplace_back(new Level(meshes_[k], std::move(own_parts), communicator));
+    levels_.emplace_back(
+        new Level(meshes_[k], std::move(own_parts), communicator, kept ? &*kept : nullptr));
     Level& level = *levels_.back();
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
