@@ -62,6 +62,7 @@ std::vector<GlobalId> with_changed_zones(std::vector<GlobalId> elements,
 }
 
 std::vector<GlobalId> with_other_sides(std::vector<GlobalId> elements, const ElementCuts& cuts) {
+  if (elements.empty()) return elements;
   sort_once(elements);
   std::vector<GlobalId> all = elements;
   const StructuredGrid& grid = cuts.grid();

@@ -38,6 +38,10 @@ StiffnessRows KeptRows::with(StiffnessRows made) const {
   const StiffnessRows& before = carried_->before().rows();
   const auto& values = carried_->before().without_springs();
   StiffnessRows all;
+  all.unknown.reserve(before.unknown.size() + made.unknown.size());
+  all.start.reserve(before.start.size() + made.start.size());
+  all.column.reserve(before.column.size() + made.column.size());
+  all.value.reserve(before.value.size() + made.value.size());
   const auto add = [&all](const StiffnessRows& from, const std::vector<double>& values_of_all,
                           std::size_t first, std::size_t end) {
     const auto a = std::ptrdiff_t(from.start[first]), b = std::ptrdiff_t(from.start[end]);

@@ -84,12 +84,11 @@ std::vector<LocalId> PartBasis::unknowns() const {
   return first;
 }
 
-void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
-                         const Vec2* inside) const {
-  functions.clear();
+template <class Visit>
+void PartBasis::for_each_function(const Vec2& p, const Vec2* inside, const Visit& visit) const {
   const ShapeValues n = shape_functions(p, size_);
   for (std::size_t a = 0; a < 4; ++a) {
-    if (pieces_[a] >= 0) functions.push_back({pieces_[a], n.value[a], n.gradient[a]});
+    if (pieces_[a] >= 0) visit(pieces_[a], n.value[a], n.gradient[a], nullptr);
   }
   if (tips_.empty()) return;
   inside = seen_from(p, inside);
@@ -119,9 +118,27 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
       gradients = gradients * tip.unknowns->functions;
     }
     for (Eigen::Index k = 0; k < 4; ++k)
-      functions.push_back({tip.unknowns->first + (modes ? 0 : 2 * LocalId(k)), values[k],
-                           gradients.col(k), modes ? &tip.zone->modes[std::size_t(k)] : nullptr});
+      visit(tip.unknowns->first + (modes ? 0 : 2 * LocalId(k)), values[k], gradients.col(k),
+            modes ? &tip.zone->modes[std::size_t(k)] : nullptr);
   }
+}
+
+void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
+                         const Vec2* inside) const {
+  functions.clear();
+  for_each_function(p, inside,
+                    [&functions](LocalId unknown, double value, const Vec2& gradient,
+                                 const Eigen::Matrix2d* directions) {
+                      functions.push_back({unknown, value, gradient, directions});
+                    });
+}
+
+void PartBasis::evaluate_gradients(const Vec2& p, double* x, double* y) const {
+  for_each_function(p, nullptr,
+                    [&x, &y](LocalId, double, const Vec2& gradient, const Eigen::Matrix2d*) {
+                      *x++ = gradient.x();
+                      *y++ = gradient.y();
+                    });
 }
 
 std::vector<double> PartBasis::tip_signature() const {

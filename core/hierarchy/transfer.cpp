@@ -68,14 +68,17 @@ void Transfer::add_entries(const Scale& fine, LocalId node, const LocalMesh& coa
                            const CellUnknowns& unknowns, const CoarseParts& parts) {
   const GridIndex at = fine.mesh.node(node);
   const auto elements = fine.mesh.grid().elements_round(at);
-  std::vector<char> done(std::size_t(fine.unknowns.pieces(node)), 0);
-  for (std::size_t slot = 0; slot < 4; ++slot) {
+  const SpecialCell* cell = fine.unknowns.special(node);
+  const int pieces = cell ? cell->pieces->count : 1;
+  int next = 0;  // pieces are numbered as they are met here
+  for (std::size_t slot = 0; slot < 4 && next < pieces; ++slot) {
     const GridIndex e = elements[slot];
     if (!fine.mesh.grid().has_element(e)) continue;
-    for (int part = 0; part < fine.parts.parts(e); ++part) {
-      const int piece = fine.unknowns.piece(node, slot, part);
-      if (done[std::size_t(piece)]) continue;
-      done[std::size_t(piece)] = 1;
+    const int parts_here = cell ? int(cell->pieces->piece[slot].size()) : 1;
+    for (int part = 0; part < parts_here; ++part) {
+      const int piece = cell ? cell->pieces->piece[slot][std::size_t(part)] : 0;
+      if (piece < next) continue;
+      next = piece + 1;
       // a fine piece lies in one part of the coarse element, whichever of its own parts is asked
       const GridIndex parent{e.i / 2, e.j / 2};
       const int coarse_part = parts.part_of(e, part);
