@@ -27,8 +27,12 @@ class Halo {
   void add_forces(std::span<double> values) const;
   /// Owner's values overwrite the ghosts'; used only where elements are evaluated.
   void copy_state(std::span<double> values) const;
+  /// The ghosts whose owners have set a flag.
+  std::vector<LocalId> ghosts_of(std::span<const char> flags) const;
 
  private:
+  void send_to_ghosts() const;
+
   Communicator* communicator_ = nullptr;
   std::vector<int> ranks_;
   std::vector<LocalId> owned_;

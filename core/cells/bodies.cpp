@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/bodies.hpp"
 
+#include "core/base/marked.hpp"
 #include "core/cells/element_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -83,48 +84,47 @@ Vec2 place_of(const BasisContext& c, LocalId node, int piece) {
 /// The pieces of this rank: a vertex for each, but one for all plain cells that stand side by side.
 class PieceGraph {
  public:
-  explicit PieceGraph(const BasisContext& c) : c_(c), sets_(0) {
-    std::vector<char> plain(std::size_t(c.mesh.owned_nodes()), 1);
+  explicit PieceGraph(const BasisContext& c)
+      : c_(c),
+        plain_(runs_without(c.mesh.own_runs(), c.unknowns.special_nodes())),
+        first_(std::size_t(c.mesh.node_count())),
+        sets_(0) {
+    for (const NodeRun& run : plain_)
+      std::fill_n(first_.begin() + run.first, run.count, vertices_++);
+    const auto add_cell = [&](LocalId n) {
+      first_[std::size_t(n)] = vertices_;
+      vertices_ += c.unknowns.pieces(n);
+    };
     for (const LocalId n : c.unknowns.special_nodes()) {
-      if (c.mesh.owns(n)) plain[std::size_t(n)] = 0;
+      if (c.mesh.owns(n)) add_cell(n);
     }
-    std::int32_t next = 0;
-    first_.reserve(std::size_t(c.mesh.node_count()));
-    for (LocalId n = 0; n < c.mesh.node_count(); ++n) {
-      const bool own_and_plain = c.mesh.owns(n) && plain[std::size_t(n)];
-      const bool follows = own_and_plain && n > 0 && plain[std::size_t(n) - 1] &&
-                           is_left_of(c.mesh.node(n - 1), c.mesh.node(n));
-      first_.push_back(follows ? first_.back() : next);
-      if (!follows) next += own_and_plain ? 1 : c.unknowns.pieces(n);
-    }
-    sets_ = UnionFind(std::size_t(next));
-    vertices_ = next;
-    join_rows(plain);
+    for (LocalId ghost = c.mesh.owned_nodes(); ghost < c.mesh.node_count(); ++ghost)
+      add_cell(ghost);
+    sets_ = UnionFind(std::size_t(vertices_));
+    join_rows();
     join_elements();
   }
   std::int32_t vertices() const { return vertices_; }
   std::int32_t vertex(LocalId node, int piece) const { return first_[std::size_t(node)] + piece; }
   const std::vector<std::int32_t>& first() const { return first_; }
+  /// Runs of plain own cells.
+  const std::vector<NodeRun>& plain() const { return plain_; }
   /// The smallest vertex of the set.
   std::int32_t set_of(std::int32_t vertex) { return std::int32_t(sets_.find(vertex)); }
 
  private:
-  static bool is_left_of(GridIndex a, GridIndex b) { return a.j == b.j && a.i + 1 == b.i; }
-
   /// Plain cells of one row with those above.
-  void join_rows(const std::vector<char>& plain) {
-    LocalId above = -1;
-    std::pair<std::int32_t, std::int32_t> last{-1, -1};
-    for (LocalId n = 0; n < c_.mesh.owned_nodes(); ++n) {
-      const GridIndex at = c_.mesh.node(n), over{at.i, at.j + 1};
-      const bool next =
-          above >= 0 && above + 1 < c_.mesh.owned_nodes() && c_.mesh.node(above + 1) == over;
-      above = next ? above + 1 : c_.mesh.find_node(over);
-      if (above < 0 || !c_.mesh.owns(above)) continue;
-      if (!plain[std::size_t(n)] || !plain[std::size_t(above)]) continue;
-      const std::pair pair{vertex(n, 0), vertex(above, 0)};
-      if (pair != last) sets_.join(pair.first, pair.second);
-      last = pair;
+  void join_rows() {
+    auto above = plain_.begin();
+    for (const NodeRun& run : plain_) {
+      while (above != plain_.end() &&
+             (above->at.j <= run.at.j ||
+              (above->at.j == run.at.j + 1 && above->end_column() <= run.at.i)))
+        ++above;
+      for (auto over = above;
+           over != plain_.end() && over->at.j == run.at.j + 1 && over->at.i < run.end_column();
+           ++over)
+        sets_.join(vertex(run.first, 0), vertex(over->first, 0));
     }
   }
 
@@ -150,6 +150,7 @@ class PieceGraph {
   }
 
   const BasisContext& c_;
+  std::vector<NodeRun> plain_;
   std::vector<std::int32_t> first_;
   std::int32_t vertices_ = 0;
   UnionFind sets_;
@@ -219,32 +220,40 @@ std::vector<SameBody> across_borders(const BasisContext& c, const PieceGraph& gr
 /// What this rank knows of its sets that have own cells.
 std::vector<LocalBody> own_bodies(const BasisContext& c, const PieceGraph& graph,
                                   const SetNames& names, const std::vector<char>& held,
-                                  const Bodies::Marks& marks) {
+                                  const std::vector<PieceMarks>& marks) {
   std::vector<LocalBody> bodies(std::size_t(names.count));
-  const auto add = [&](LocalId n, int p) {
+  const auto body_of = [&](LocalId n, int p) -> LocalBody& {
     const std::int64_t name = names.of_vertex[std::size_t(graph.vertex(n, p))];
-    LocalBody& body = bodies[std::size_t(name - names.first)];
+    bodies[std::size_t(name - names.first)].label = name;
+    return bodies[std::size_t(name - names.first)];
+  };
+  // cells side by side count together, and lie where the first of them does
+  const auto add = [&](LocalId n, int p, LocalId count) {
+    LocalBody& body = body_of(n, p);
     const GlobalId node = c.mesh.node_id(n);
-    if (body.pieces++ == 0 || node < body.node) {
+    if (body.pieces == 0 || node < body.node) {
       const Vec2 x = place_of(c, n, p);
-      body.label = name;
       body.node = node;
       body.x = x.x();
       body.y = x.y();
     }
-    body.marks |= marks(n, p);
-    const LocalId u = c.unknowns.of_piece(n, p);
-    for (int component = 0; component < 2; ++component) {
-      if (held[std::size_t(u + component)]) add_hold(c, n, component, body);
-    }
+    body.pieces += count;
   };
-  const auto& special = c.unknowns.special_nodes();
-  auto next_special = special.begin();
-  for (LocalId n = 0; n < c.mesh.owned_nodes(); ++n) {
-    add(n, 0);
-    if (next_special == special.end() || *next_special != n) continue;
-    for (int p = 1; p < c.unknowns.pieces(n); ++p) add(n, p);
-    ++next_special;
+  for (const NodeRun& run : graph.plain()) add(run.first, 0, run.count);
+  for (const LocalId u : marked({held.data(), std::size_t(2 * c.mesh.owned_nodes())}))
+    add_hold(c, u / 2, u % 2, body_of(u / 2, 0));
+  for (const LocalId n : c.unknowns.special_nodes()) {
+    if (!c.mesh.owns(n)) break;
+    for (int p = 0; p < c.unknowns.pieces(n); ++p) {
+      add(n, p, 1);
+      const LocalId u = c.unknowns.of_piece(n, p);
+      for (int component = 0; p > 0 && component < 2; ++component) {
+        if (held[std::size_t(u + component)]) add_hold(c, n, component, body_of(n, p));
+      }
+    }
+  }
+  for (const PieceMarks& m : marks) {
+    if (c.mesh.owns(m.node)) body_of(m.node, m.piece).marks |= m.bits;
   }
   std::erase_if(bodies, [](const LocalBody& body) { return body.pieces == 0; });
   return bodies;
@@ -252,8 +261,8 @@ std::vector<LocalBody> own_bodies(const BasisContext& c, const PieceGraph& graph
 
 }  // namespace
 
-Bodies::Bodies(const BasisContext& c, const std::vector<char>& held, const Marks& marks,
-               Communicator& communicator) {
+Bodies::Bodies(const BasisContext& c, const std::vector<char>& held,
+               const std::vector<PieceMarks>& marks, Communicator& communicator) {
   PieceGraph graph(c);
   const SetNames names = name_sets(graph, communicator);
   const auto all =

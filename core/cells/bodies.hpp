@@ -5,7 +5,6 @@
 #include "core/cells/part_basis.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace cdca {
@@ -18,16 +17,20 @@ struct Body {
   std::uint64_t marks = 0;  ///< of all its pieces
 };
 
+/// What touches a piece, one bit for everything.
+struct PieceMarks {
+  LocalId node = 0;
+  int piece = 0;
+  std::uint64_t bits = 0;
+};
+
 /// All bodies of the grid, the same list on every rank whoever owns what, and which of them the
 /// pieces of this rank belong to.
 class Bodies {
  public:
-  /// Marks of a piece, one bit for everything that touches it.
-  using Marks = std::function<std::uint64_t(LocalId node, int piece)>;
-
-  /// held: per unknown, as supports prescribe it. Collective.
-  Bodies(const BasisContext& context, const std::vector<char>& held, const Marks& marks,
-         Communicator& communicator);
+  /// held: per unknown, as supports prescribe it. marks: those of own cells count. Collective.
+  Bodies(const BasisContext& context, const std::vector<char>& held,
+         const std::vector<PieceMarks>& marks, Communicator& communicator);
 
   const std::vector<Body>& list() const { return list_; }
   std::size_t body_of(LocalId node, int piece) const {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/carried_cells.hpp"
 
+#include "core/base/marked.hpp"
 #include "core/base/sort_once.hpp"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
+#include <numeric>
+#include <utility>
 
 namespace cdca {
 
@@ -29,16 +33,14 @@ void add_elements_of_others(const std::vector<TipZone>& zones, const std::vector
 
 /// A cell has the same pieces, of the same parts, and as many near-tip unknowns.
 bool same_unknowns(const SpecialCell& a, const SpecialCell& b) {
-  return a.pieces == b.pieces &&
+  return (a.pieces == b.pieces || *a.pieces == *b.pieces) &&
          std::equal(a.tips.begin(), a.tips.end(), b.tips.begin(), b.tips.end(),
                     [](const TipUnknowns& s, const TipUnknowns& t) { return s.count == t.count; });
 }
 
 }  // namespace
 
-std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vector<TipZone>& zones,
-                                       const ElementCuts& after,
-                                       const std::vector<TipZone>& zones_after) {
+std::vector<GlobalId> changed_cuts(const ElementCuts& before, const ElementCuts& after) {
   std::vector<GlobalId> changed;
   for (const auto* cuts : {&before, &after}) {
     for (const GlobalId id : cuts->touched_elements()) {
@@ -46,13 +48,21 @@ std::vector<GlobalId> changed_elements(const ElementCuts& before, const std::vec
       if (!after.paths().same_steps(before.paths(), e)) changed.push_back(id);
     }
   }
-  add_elements_of_others(zones, zones_after, changed);
-  add_elements_of_others(zones_after, zones, changed);
   sort_once(changed);
   return changed;
 }
 
+std::vector<GlobalId> with_changed_zones(std::vector<GlobalId> elements,
+                                         const std::vector<TipZone>& before,
+                                         const std::vector<TipZone>& after) {
+  add_elements_of_others(before, after, elements);
+  add_elements_of_others(after, before, elements);
+  sort_once(elements);
+  return elements;
+}
+
 std::vector<GlobalId> with_other_sides(std::vector<GlobalId> elements, const ElementCuts& cuts) {
+  if (elements.empty()) return elements;
   sort_once(elements);
   std::vector<GlobalId> all = elements;
   const StructuredGrid& grid = cuts.grid();
@@ -84,18 +94,18 @@ std::vector<GlobalId> parents_of(const std::vector<GlobalId>& elements,
 
 CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                            const CellStiffness& before, const CellUnknowns& unknowns,
-                           std::vector<GlobalId> changed, std::vector<GlobalId> turned,
-                           const std::vector<char>& held, const std::vector<double>& springs)
+                           ChangedElements changed, const std::vector<char>& held,
+                           const std::vector<double>& springs)
     : before_(before),
       changed_(std::move(changed)),
-      turned_(std::move(turned)),
       same_rows_(std::size_t(mesh.node_count()), 1),
       same_(same_rows_),
-      now_(std::size_t(unknowns_before.count()), -1) {
+      plain_(2 * mesh.owned_nodes()),
+      now_(std::size_t(unknowns_before.count() - plain_), -1) {
   mark_changed(mesh, unknowns);
   carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
   mark_zones(unknowns, same_rows_);
-  for (std::size_t n = 0; n < same_.size(); ++n) same_[n] = same_[n] && same_rows_[n];
+  for (std::size_t n = 0; n < same_.size(); ++n) same_[n] &= same_rows_[n];
   mark_turned(mesh);
   mark_zones(unknowns, same_);
 }
@@ -105,7 +115,7 @@ void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
 }
 
 void CarriedCells::mark_changed(const LocalMesh& mesh, const CellUnknowns& unknowns) {
-  for (const GlobalId id : changed_) {
+  for (const GlobalId id : changed_.functions) {
     for (const GridIndex corner : mesh.grid().corners(mesh.grid().element_index(id))) {
       const LocalId n = mesh.find_node(corner);
       if (n < 0) continue;
@@ -117,52 +127,75 @@ void CarriedCells::mark_changed(const LocalMesh& mesh, const CellUnknowns& unkno
 }
 
 void CarriedCells::mark_turned(const LocalMesh& mesh) {
-  for (const GlobalId id : turned_) {
+  for (const GlobalId id : changed_.turned) {
     for (const LocalId n : mesh.element_nodes(mesh.grid().element_index(id))) {
       if (n >= 0) same_[std::size_t(n)] = 0;
     }
   }
 }
 
+void CarriedCells::carry_plain(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
+                               const CellUnknowns& unknowns, const std::vector<char>& held,
+                               const std::vector<double>& springs) {
+  // nothing holds ghosts or pulls at them here
+  if (const LocalId ghost = mesh.owned_nodes(); ghost < mesh.node_count()) {
+    const auto first = now_.begin() + (unknowns_before.of_piece(ghost, 0) - plain_);
+    std::iota(first, first + 2 * (mesh.node_count() - ghost), unknowns.of_piece(ghost, 0));
+  }
+  const auto is_held = marked({held.data(), std::size_t(plain_)});
+  std::vector<LocalId> others;
+  const auto& was_held = before_.held();
+  std::set_symmetric_difference(was_held.begin(),
+                                std::lower_bound(was_held.begin(), was_held.end(), plain_),
+                                is_held.begin(), is_held.end(), std::back_inserter(others));
+  for (const LocalId u : others) differs_round(mesh, u / 2);
+  std::vector<std::pair<LocalId, double>> was, is, other_springs;
+  for (const CellStiffness::Spring& s : before_.springs()) {
+    if (s.unknown < plain_) was.emplace_back(s.unknown, s.share);
+  }
+  for (LocalId u = 0; !springs.empty() && u < plain_; ++u) {
+    if (springs[std::size_t(u)] != 0.0) is.emplace_back(u, springs[std::size_t(u)]);
+  }
+  std::set_symmetric_difference(was.begin(), was.end(), is.begin(), is.end(),
+                                std::back_inserter(other_springs));
+  for (const auto& [u, share] : other_springs) same_[std::size_t(u / 2)] = 0;
+}
+
 void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unknowns_before,
                                   const CellUnknowns& unknowns, const std::vector<char>& held,
                                   const std::vector<double>& springs) {
+  carry_plain(mesh, unknowns_before, unknowns, held, springs);
   std::vector<char> was_held(now_.size(), 0);
   std::vector<double> share_before(now_.size(), 0.0);
-  for (const LocalId u : before_.held()) was_held[std::size_t(u)] = 1;
-  for (const CellStiffness::Spring& s : before_.springs())
-    share_before[std::size_t(s.unknown)] = s.share;
+  for (const LocalId u : before_.held()) {
+    if (u >= plain_) was_held[std::size_t(u - plain_)] = 1;
+  }
+  for (const CellStiffness::Spring& s : before_.springs()) {
+    if (s.unknown >= plain_) share_before[std::size_t(s.unknown - plain_)] = s.share;
+  }
   const auto carry = [&](LocalId n, LocalId from, LocalId to, LocalId count) {
     bool alike = true;
     for (LocalId k = 0; k < count; ++k) {
-      const auto u = std::size_t(from + k), v = std::size_t(to + k);
+      const auto u = std::size_t(from + k - plain_), v = std::size_t(to + k);
       now_[u] = to + k;
       alike = alike && was_held[u] == held[v];
       if (share_before[u] != (springs.empty() ? 0.0 : springs[v])) same_[std::size_t(n)] = 0;
     }
     return alike;
   };
-  for (LocalId n = 0; n < mesh.node_count(); ++n) {
-    if (!carry(n, unknowns_before.of_piece(n, 0), unknowns.of_piece(n, 0), 2))
-      differs_round(mesh, n);
-  }
-  const auto forget = [&](LocalId n) {
-    for (const LocalId u : unknowns_before.of_cell(n)) now_[std::size_t(u)] = -1;
-    differs_round(mesh, n);
-  };
   for (const LocalId n : unknowns_before.special_nodes()) {
     const SpecialCell &was = *unknowns_before.special(n), *is = unknowns.special(n);
     if (!is || !same_unknowns(was, *is)) {
-      forget(n);
+      differs_round(mesh, n);
       continue;
     }
-    bool alike = carry(n, was.extra, is->extra, 2 * (was.pieces.count - 1));
+    bool alike = carry(n, was.extra, is->extra, 2 * (was.pieces->count - 1));
     for (std::size_t k = 0; k < was.tips.size(); ++k)
       alike = carry(n, was.tips[k].first, is->tips[k].first, was.tips[k].count) && alike;
     if (!alike) differs_round(mesh, n);
   }
   for (const LocalId n : unknowns.special_nodes()) {
-    if (!unknowns_before.special(n)) forget(n);
+    if (!unknowns_before.special(n)) differs_round(mesh, n);
   }
 }
 

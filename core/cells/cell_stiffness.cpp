@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
-#include "core/base/sort_once.hpp"
+#include "core/base/marked.hpp"
 #include "core/cells/kept_rows.hpp"
 
 #include <Eigen/Cholesky>
@@ -16,39 +16,48 @@ namespace cdca {
 namespace {
 
 /// A cell is regular when its support is whole, untouched by cracks and material of this rank, and
-/// none of its neighbours has more than its two plain unknowns; and no support holds it.
-std::vector<char> find_regular_cells(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                                     const std::vector<GlobalId>& special,
-                                     const std::vector<char>& held) {
+/// none of its neighbours has more than its two plain unknowns; and no support holds it. All others
+/// of this rank, ghosts included, have rows of their own; ascending.
+std::vector<LocalId> cells_with_rows(const LocalMesh& mesh, const std::vector<GlobalId>& special,
+                                     const std::vector<LocalId>& held,
+                                     const std::vector<GlobalId>& own_rows) {
   const StructuredGrid& grid = mesh.grid();
-  std::vector<char> regular(std::size_t(mesh.node_count()), 0);
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
-    const GridIndex at = mesh.node(n);
-    const bool inside = at.i > 0 && at.j > 0 && at.i < grid.nx() && at.j < grid.ny();
-    const auto unknown = std::size_t(unknowns.of_piece(n, 0));
-    regular[std::size_t(n)] = inside && !held[unknown] && !held[unknown + 1];
+  std::vector<char> with_rows(std::size_t(mesh.node_count()), 0);
+  const auto add = [&](LocalId n) { with_rows[std::size_t(n)] = 1; };
+  for (const NodeRun& run : mesh.own_runs()) {
+    if (run.at.j == 0 || run.at.j == grid.ny())
+      std::fill_n(with_rows.begin() + run.first, run.count, char(1));
+    if (run.at.i == 0) add(run.first);
+    if (run.end_column() > grid.nx()) add(run.end() - 1);
   }
-  for (LocalId ghost = mesh.owned_nodes(); ghost < mesh.node_count(); ++ghost) {
-    mesh.for_nodes_round(ghost, [&](LocalId n) { regular[std::size_t(n)] = 0; });
+  for (const LocalId u : held) {
+    // cells with further unknowns are special
+    if (mesh.owns(u / 2)) add(u / 2);
   }
+  for (LocalId ghost = mesh.owned_nodes(); ghost < mesh.node_count(); ++ghost)
+    mesh.for_nodes_round(ghost, add);
   for (const GlobalId id : special) {
-    for (const LocalId n : mesh.element_nodes(grid.element_index(id))) regular[std::size_t(n)] = 0;
+    for (const LocalId n : mesh.element_nodes(grid.element_index(id))) add(n);
   }
-  return regular;
+  for (const GlobalId id : own_rows) {
+    const LocalId n = mesh.find_node(grid.node_index(id));
+    if (n >= 0) add(n);
+  }
+  return marked(with_rows);
 }
 
-/// The elements round all cells that are not regular, in order of id.
-std::vector<GlobalId> elements_round_own_rows(const LocalMesh& mesh,
-                                              const std::vector<char>& regular) {
-  std::vector<GlobalId> found;
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
-    if (regular[std::size_t(n)]) continue;
+/// The elements of this rank round some nodes, in order of id.
+std::vector<GridIndex> elements_round(const LocalMesh& mesh, const std::vector<char>& nodes) {
+  std::vector<char> round(std::size_t(mesh.element_count()), 0);
+  for (const LocalId n : marked(nodes)) {
     for (const GridIndex e : mesh.grid().elements_round(mesh.node(n))) {
-      if (mesh.grid().has_element(e)) found.push_back(mesh.grid().element(e));
+      const LocalId found = mesh.find_element(e);
+      if (found >= 0) round[std::size_t(found)] = 1;
     }
   }
-  sort_once(found);
-  return found;
+  std::vector<GridIndex> elements;
+  for (const LocalId e : marked(round)) elements.push_back(mesh.element(e));
+  return elements;
 }
 
 }  // namespace
@@ -62,35 +71,30 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
       halo_(communicator, unknowns.shared(mesh)),
       owned_(unknowns.owned()),
       count_(unknowns.count()) {
-  auto regular = find_regular_cells(mesh, unknowns, elements.special(), held);
-  for (const GlobalId id : own_rows) {
-    const LocalId n = mesh.find_node(mesh.grid().node_index(id));
-    if (n >= 0) regular[std::size_t(n)] = 0;
-  }
-  regular_ = RegularRuns(mesh, regular, elements.plain());
-  build_rows(mesh, unknowns, elements, regular, carried);
+  held_ = marked({held.data(), std::size_t(owned_)});
+  const auto with_rows = cells_with_rows(mesh, elements.special(), held_, own_rows);
+  regular_ = RegularRuns(mesh, runs_without(mesh.own_runs(), with_rows), elements.plain());
+  build_rows(mesh, unknowns, elements, with_rows, carried);
   if (!springs.empty()) without_springs_ = rows_.value;
   add_faces(mesh, elements);
   hold_idle_functions(mesh, unknowns);
   if (!springs.empty()) add_springs(springs);
   if (sweeps == Sweeps::one_after_the_other) {
-    build_groups(mesh, unknowns, held, regular);
+    build_groups(mesh, unknowns, held, with_rows);
     order_items();
     colour_ranks(mesh);
-  }
-  for (LocalId u = 0; u < owned_; ++u) {
-    if (held[std::size_t(u)]) held_.push_back(u);
   }
 }
 
 void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                               ElementStiffness& elements, const std::vector<char>& regular,
+                               ElementStiffness& elements, const std::vector<LocalId>& with_rows,
                                const CarriedCells* carried) {
-  KeptRows kept(carried, std::size_t(count_));
+  KeptRows kept(carried);
   std::vector<char> wanted(std::size_t(count_), 0), anew(std::size_t(mesh.node_count()), 0);
-  for (LocalId n = 0; n < mesh.node_count(); ++n) {
-    if (regular[std::size_t(n)]) continue;
-    const auto own = unknowns.of_cell(n);
+  std::vector<LocalId> own;
+  for (const LocalId n : with_rows) {
+    own.clear();
+    unknowns.append_cell(n, own);
     if (kept.keep(n, own)) continue;
     anew[std::size_t(n)] = 1;
     for (const LocalId u : own) wanted[std::size_t(u)] = 1;
@@ -98,25 +102,22 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
   RowSum sum;
   const auto& special = elements.special();
   auto next_special = special.begin();
-  for (const GlobalId id : elements_round_own_rows(mesh, regular)) {
-    const GridIndex element = mesh.grid().element_index(id);
-    const auto nodes = mesh.element_nodes(element);
-    if (std::none_of(nodes.begin(), nodes.end(),
-                     [&](LocalId n) { return n >= 0 && anew[std::size_t(n)]; }))
-      continue;
+  for (const GridIndex element : elements_round(mesh, anew)) {
+    const GlobalId id = mesh.grid().element(element);
     while (next_special != special.end() && *next_special < id) ++next_special;
     if (next_special == special.end() || *next_special != id) {
-      std::vector<LocalId> of_nodes;
-      for (const LocalId n : nodes) {
-        const LocalId first = unknowns.of_piece(n, 0);
-        of_nodes.insert(of_nodes.end(), {first, first + 1});
+      std::array<LocalId, 8> of_nodes;
+      std::size_t k = 0;
+      for (const LocalId n : mesh.element_nodes(element)) {
+        of_nodes[k++] = unknowns.of_piece(n, 0);
+        of_nodes[k++] = unknowns.of_piece(n, 0) + 1;
       }
-      sum.refer_to(std::move(of_nodes), elements.plain());
+      sum.refer_to(of_nodes, elements.plain());
       continue;
     }
-    for (PartStiffness& own : elements.parts(element))
-      sum.add(std::move(own.unknowns), std::move(own.matrix));
-    for (PartStiffness& face : elements.faces(element)) sum.make_places(std::move(face.unknowns));
+    for (PartStiffness& own_part : elements.parts(element))
+      sum.add(own_part.unknowns, std::move(own_part.matrix));
+    for (const PartStiffness& face : elements.faces(element)) sum.make_places(face.unknowns);
   }
   rows_ = kept.with(sum.rows(wanted, owned_));
 }
@@ -204,11 +205,12 @@ void CellStiffness::add_spring_forces(std::span<const double> displacements,
 }
 
 void CellStiffness::build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                                 const std::vector<char>& held, const std::vector<char>& regular) {
+                                 const std::vector<char>& held,
+                                 const std::vector<LocalId>& with_rows) {
   // cells of one zone form a group with the number of the zone; all others stand alone
   std::map<std::pair<int, LocalId>, std::vector<LocalId>> members;
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
-    if (regular[std::size_t(n)]) continue;
+  for (const LocalId n : with_rows) {
+    if (!mesh.owns(n)) break;
     const auto tips = unknowns.tips(n);
     const auto key = tips.empty() ? std::pair<int, LocalId>(-1, n)
                                   : std::pair<int, LocalId>(tips.front().zone, -1);

@@ -84,7 +84,7 @@ class CellStiffness final : public CellSystem {
   };
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
-                  const std::vector<char>& regular, const CarriedCells* carried);
+                  const std::vector<LocalId>& with_rows, const CarriedCells* carried);
   /// Springs of faces, on top of the rows.
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
@@ -93,7 +93,7 @@ class CellStiffness final : public CellSystem {
   void hold_idle_functions(const std::vector<LocalId>& block);
   void add_springs(const std::vector<double>& springs);
   void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                    const std::vector<char>& held, const std::vector<char>& regular);
+                    const std::vector<char>& held, const std::vector<LocalId>& with_rows);
   void order_items();
   void colour_ranks(const LocalMesh& mesh);
   bool at_border(const CellGroup& group) const;

@@ -8,8 +8,9 @@
 #include "core/cells/tip_zone.hpp"
 #include "core/mesh/local_mesh.hpp"
 
-#include <map>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cdca {
@@ -27,7 +28,8 @@ struct TipUnknowns {
 
 /// A cell that is not plain: several pieces, near-tip functions, or both.
 struct SpecialCell {
-  CellPieces pieces;
+  /// One object for as long as no crack changes round the cell.
+  std::shared_ptr<const CellPieces> pieces;
   LocalId extra = 0;  ///< first unknown of piece 1; those of the other pieces follow
   std::vector<TipUnknowns> tips;
 };
@@ -37,9 +39,16 @@ struct SpecialCell {
 class CellUnknowns {
  public:
   CellUnknowns() = default;
+  /// What growth has left as it was.
+  struct Kept {
+    const CellUnknowns& before;
+    const std::vector<GlobalId>& changed;  ///< elements that other cracks run through
+  };
   /// Collective: owners tell the ranks that hold ghosts of their cells what pieces these have.
+  /// kept: own cells take their pieces from there; null for none.
   CellUnknowns(const LocalMesh& mesh, const ElementParts& elements,
-               const std::vector<TipZone>& zones, Communicator& communicator);
+               const std::vector<TipZone>& zones, Communicator& communicator,
+               const Kept* kept = nullptr);
 
   LocalId owned() const { return owned_; }
   LocalId count() const { return count_; }
@@ -55,6 +64,8 @@ class CellUnknowns {
   LocalId of_piece(LocalId node, int piece) const;
   /// Every unknown of a cell in order: pieces, then near-tip.
   std::vector<LocalId> of_cell(LocalId node) const;
+  /// The same, behind what is in the list.
+  void append_cell(LocalId node, std::vector<LocalId>& unknowns) const;
   /// The piece that a part of an element round the node belongs to. slot as in CellPieces.
   int piece(LocalId node, std::size_t slot, int part) const;
   int pieces(LocalId node) const;
@@ -63,11 +74,11 @@ class CellUnknowns {
   std::vector<SharedUnknowns> shared(const LocalMesh& mesh) const;
 
  private:
-  using Cells = std::map<LocalId, SpecialCell>;
-  void find_own(const LocalMesh& mesh, const ElementParts& elements,
-                const std::vector<TipZone>& zones, Cells& found);
-  void tell_ghosts(const LocalMesh& mesh, Communicator& communicator, Cells& found);
-  void number(const LocalMesh& mesh, Cells found);
+  using Cells = std::vector<std::pair<LocalId, SpecialCell>>;  ///< ascending
+  static Cells find_own(const LocalMesh& mesh, const ElementParts& elements,
+                        const std::vector<TipZone>& zones, const Kept* kept);
+  static void add_ghosts(const LocalMesh& mesh, Communicator& communicator, Cells& cells);
+  void number(const LocalMesh& mesh, Cells cells);
   void make_tip_functions(const LocalMesh& mesh, const std::vector<TipZone>& zones);
 
   LocalId owned_nodes_ = 0;

@@ -12,10 +12,9 @@ ElementCuts::ElementCuts(const StructuredGrid& grid, CrackPaths paths, const Ele
 
 const CutElement* ElementCuts::find(GridIndex element) const {
   if (!touched(element)) return nullptr;
-  const GlobalId id = grid_.element(element);
-  const auto it = cache_.find(id);
-  if (it != cache_.end()) return &it->second;
-  return &cache_.emplace(id, cut_element(paths_, element)).first->second;
+  auto& cut = cache_[grid_.element(element)];
+  if (!cut) cut = std::make_shared<const CutElement>(cut_element(paths_, element));
+  return cut.get();
 }
 
 int ElementCuts::parts(GridIndex element) const {

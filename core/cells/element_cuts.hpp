@@ -6,6 +6,7 @@
 #include "core/cracks/crack_paths.hpp"
 #include "core/mesh/grid.hpp"
 
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -31,7 +32,7 @@ class ElementCuts final : public ElementParts {
   ElementCuts() = default;
   ElementCuts(const StructuredGrid& grid, CrackPaths paths)
       : grid_(grid), paths_(std::move(paths)) {}
-  /// Takes over the cut elements of `previous` in which the cracks have not changed.
+  /// Shares the cut elements of `previous` in which the cracks have not changed.
   ElementCuts(const StructuredGrid& grid, CrackPaths paths, const ElementCuts& previous);
 
   const StructuredGrid& grid() const override { return grid_; }
@@ -58,7 +59,7 @@ class ElementCuts final : public ElementParts {
 
   StructuredGrid grid_;
   CrackPaths paths_;
-  mutable std::unordered_map<GlobalId, CutElement> cache_;
+  mutable std::unordered_map<GlobalId, std::shared_ptr<const CutElement>> cache_;
 };
 
 }  // namespace cdca

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/element_stiffness.hpp"
 
-#include "core/base/sort_once.hpp"
+#include "core/base/marked.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -50,16 +50,17 @@ std::vector<PartStiffness> FinestElements::faces(GridIndex e) {
 
 std::vector<GlobalId> elements_near_cracks(const LocalMesh& mesh, const ElementParts& elements,
                                            const CellUnknowns& unknowns) {
-  std::vector<GlobalId> found;
-  for (const GlobalId id : elements.touched_elements()) {
-    if (mesh.find_element(mesh.grid().element_index(id)) >= 0) found.push_back(id);
-  }
+  std::vector<char> near(std::size_t(mesh.element_count()), 0);
+  const auto add = [&](GridIndex e) {
+    const LocalId found = mesh.find_element(e);
+    if (found >= 0) near[std::size_t(found)] = 1;
+  };
+  for (const GlobalId id : elements.touched_elements()) add(mesh.grid().element_index(id));
   for (const LocalId n : unknowns.special_nodes()) {
-    for (const GridIndex e : mesh.grid().elements_round(mesh.node(n))) {
-      if (mesh.find_element(e) >= 0) found.push_back(mesh.grid().element(e));
-    }
+    for (const GridIndex e : mesh.grid().elements_round(mesh.node(n))) add(e);
   }
-  sort_once(found);
+  std::vector<GlobalId> found;
+  for (const LocalId e : marked(near)) found.push_back(mesh.grid().element(mesh.element(e)));
   return found;
 }
 

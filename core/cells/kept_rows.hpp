@@ -10,8 +10,8 @@ namespace cdca {
 
 class KeptRows {
  public:
-  /// carried: null for none. count: of the unknowns now.
-  KeptRows(const CarriedCells* carried, std::size_t count);
+  /// carried: null for none.
+  explicit KeptRows(const CarriedCells* carried);
 
   /// Keeps the rows of all these unknowns of a cell, if the cell is the same and had rows before.
   bool keep(LocalId node, const std::vector<LocalId>& unknowns);
@@ -20,8 +20,11 @@ class KeptRows {
 
  private:
   const CarriedCells* carried_;
-  std::vector<std::ptrdiff_t> row_of_;  ///< of an unknown now: its row before
-  std::vector<char> kept_;              ///< by row before
+  std::vector<LocalId> now_;  ///< ascending: unknowns whose cells have the unknowns that they had,
+  std::vector<std::size_t> row_;  ///< and the row before of each of them
+  std::vector<char> kept_;        ///< by row before
+  std::vector<std::size_t> rows_of_cell_;
+  std::size_t next_ = 0;  ///< of now_: what will probably be asked for next
 };
 
 }  // namespace cdca

@@ -12,11 +12,11 @@ namespace {
 /// On which side of the zone's crack all of a piece lies, if it does.
 FaceSide side_of_piece(const BasisContext& c, const TipZone& zone, LocalId node, int piece) {
   const SpecialCell& cell = *c.unknowns.special(node);
-  if (cell.pieces.count == 1) return FaceSide::none;
+  if (cell.pieces->count == 1) return FaceSide::none;
   const auto elements = c.mesh.grid().elements_round(c.mesh.node(node));
   bool above = false, below = false;
   for (std::size_t slot = 0; slot < 4; ++slot) {
-    const auto& parts = cell.pieces.piece[slot];
+    const auto& parts = cell.pieces->piece[slot];
     for (std::size_t part = 0; part < parts.size(); ++part) {
       if (parts[part] != piece) continue;
       const CutElement* cut = c.cuts.find(elements[slot]);
@@ -84,12 +84,11 @@ std::vector<LocalId> PartBasis::unknowns() const {
   return first;
 }
 
-void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
-                         const Vec2* inside) const {
-  functions.clear();
+template <class Visit>
+void PartBasis::for_each_function(const Vec2& p, const Vec2* inside, const Visit& visit) const {
   const ShapeValues n = shape_functions(p, size_);
   for (std::size_t a = 0; a < 4; ++a) {
-    if (pieces_[a] >= 0) functions.push_back({pieces_[a], n.value[a], n.gradient[a]});
+    if (pieces_[a] >= 0) visit(pieces_[a], n.value[a], n.gradient[a], nullptr);
   }
   if (tips_.empty()) return;
   inside = seen_from(p, inside);
@@ -119,9 +118,27 @@ void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
       gradients = gradients * tip.unknowns->functions;
     }
     for (Eigen::Index k = 0; k < 4; ++k)
-      functions.push_back({tip.unknowns->first + (modes ? 0 : 2 * LocalId(k)), values[k],
-                           gradients.col(k), modes ? &tip.zone->modes[std::size_t(k)] : nullptr});
+      visit(tip.unknowns->first + (modes ? 0 : 2 * LocalId(k)), values[k], gradients.col(k),
+            modes ? &tip.zone->modes[std::size_t(k)] : nullptr);
   }
+}
+
+void PartBasis::evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
+                         const Vec2* inside) const {
+  functions.clear();
+  for_each_function(p, inside,
+                    [&functions](LocalId unknown, double value, const Vec2& gradient,
+                                 const Eigen::Matrix2d* directions) {
+                      functions.push_back({unknown, value, gradient, directions});
+                    });
+}
+
+void PartBasis::evaluate_gradients(const Vec2& p, double* x, double* y) const {
+  for_each_function(p, nullptr,
+                    [&x, &y](LocalId, double, const Vec2& gradient, const Eigen::Matrix2d*) {
+                      *x++ = gradient.x();
+                      *y++ = gradient.y();
+                    });
 }
 
 std::vector<double> PartBasis::tip_signature() const {

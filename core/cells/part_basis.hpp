@@ -58,6 +58,8 @@ class PartBasis {
   /// on the side that the element shares with one of this rank's.
   void evaluate(const Vec2& p, std::vector<BasisFunction>& functions,
                 const Vec2* inside = nullptr) const;
+  /// Their gradients alone, 1/m, in the same order: x and y have room for those of all functions.
+  void evaluate_gradients(const Vec2& p, double* x, double* y) const;
   /// Numbers that tell near-tip functions apart: which corners carry them, and their crack's path.
   std::vector<double> tip_signature() const;
   /// Tips whose functions act here, inside-the-element coordinates, with the bends that quadrature
@@ -72,6 +74,9 @@ class PartBasis {
     FaceSide side;                  ///< of the piece
     std::array<double, 4> at_node;  ///< as seen from there
   };
+  /// Calls visit(unknown, value, gradient, directions) for every function.
+  template <class Visit>
+  void for_each_function(const Vec2& p, const Vec2* inside, const Visit& visit) const;
   Vec2 position(const Vec2& p) const;
   /// Slivers take the field across the crack: from there they are looked at.
   const Vec2* seen_from(const Vec2& p, const Vec2* inside) const;

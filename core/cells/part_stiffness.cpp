@@ -30,17 +30,11 @@ GradientProducts gradient_products(const PartBasis& basis, Eigen::Index count, c
   GradientProducts sum{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count),
                        Eigen::MatrixXd::Zero(count, count)};
   Eigen::MatrixXd gx(count, batch), gy(count, batch), wx(count, batch), wy(count, batch);
-  std::vector<BasisFunction> functions;
   for (std::size_t start = 0; start < points.size(); start += batch) {
     const auto size = Eigen::Index(std::min(batch, points.size() - start));
     for (Eigen::Index q = 0; q < size; ++q) {
       const QuadraturePoint& point = points[start + std::size_t(q)];
-      basis.evaluate(point.at, functions);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const Vec2& g = functions[std::size_t(k)].gradient;
-        gx(k, q) = g.x();
-        gy(k, q) = g.y();
-      }
+      basis.evaluate_gradients(point.at, gx.col(q).data(), gy.col(q).data());
       wx.col(q) = point.weight * h.prod() * gx.col(q);
       wy.col(q) = point.weight * h.prod() * gy.col(q);
     }

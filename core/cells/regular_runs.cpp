@@ -7,20 +7,11 @@
 
 namespace cdca {
 
-RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular,
+RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<NodeRun>& regular,
                          const Eigen::Matrix<double, 8, 8>& k) {
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
-    if (!regular[std::size_t(n)]) continue;
-    const GridIndex at = mesh.node(n);
-    if (!runs_.empty()) {
-      RegularRun& last = runs_.back();
-      const GridIndex before = mesh.node(last.node + last.count - 1);
-      if (last.node + last.count == n && before.j == at.j) {
-        ++last.count;
-        continue;
-      }
-    }
-    runs_.push_back({n, 1, mesh.find_node({at.i, at.j - 1}), mesh.find_node({at.i, at.j + 1})});
+  for (const NodeRun& run : regular) {
+    runs_.push_back({run.first, run.count, mesh.find_node({run.at.i, run.at.j - 1}),
+                     mesh.find_node({run.at.i, run.at.j + 1})});
   }
   // the node is corner (slot + 2) % 4 of the element in each slot round it
   constexpr std::array<std::array<int, 2>, 4> corner{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};

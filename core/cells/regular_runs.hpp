@@ -25,8 +25,8 @@ class RegularRuns {
   using Stencil = std::array<std::array<std::array<double, 6>, 2>, 3>;
 
   RegularRuns() = default;
-  /// regular: for every own node. All nine cells of a regular cell's stencil are own and plain.
-  RegularRuns(const LocalMesh& mesh, const std::vector<char>& regular,
+  /// All nine cells of a regular cell's stencil are own and plain.
+  RegularRuns(const LocalMesh& mesh, const std::vector<NodeRun>& regular,
               const Eigen::Matrix<double, 8, 8>& element_stiffness);
 
   const std::vector<RegularRun>& runs() const { return runs_; }

@@ -8,7 +8,6 @@
 
 #include <deque>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace cdca {
@@ -31,22 +30,21 @@ struct StiffnessRows {
 /// Adds up rows of cells from the matrices of elements, part by part.
 class RowSum {
  public:
-  void add(std::vector<LocalId> unknowns, Eigen::MatrixXd matrix);
+  void add(std::span<const LocalId> unknowns, Eigen::MatrixXd matrix);
   /// Of an element without cracks; the matrix has to stay where it is.
-  void refer_to(std::vector<LocalId> unknowns, const Eigen::Matrix<double, 8, 8>& matrix);
+  void refer_to(std::span<const LocalId> unknowns, const Eigen::Matrix<double, 8, 8>& matrix);
 
   /// Makes places for a matrix over these unknowns that is added later.
-  void make_places(std::vector<LocalId> unknowns) {
-    addends_.push_back({std::move(unknowns), nullptr});
-  }
-  /// The rows of all wanted unknowns; entries of ghosts on ghosts are left out. Entries of the same
-  /// place are added up in the order in which they came, so that the sums are bit for bit the same
-  /// whatever the numbers of the unknowns.
+  void make_places(std::span<const LocalId> unknowns);
+  /// The rows of all wanted unknowns (flags); entries of ghosts on ghosts are left out. Entries of
+  /// the same place are added up in the order in which they came, so that the sums are bit for bit
+  /// the same whatever the numbers of the unknowns.
   StiffnessRows rows(const std::vector<char>& wanted, LocalId owned) const;
 
  private:
   struct Addend {
-    std::vector<LocalId> unknowns;
+    std::size_t first;  ///< of its unknowns
+    std::size_t size;
     const double* matrix;  ///< by columns; null for zeros
   };
   /// A row of an addend.
@@ -54,12 +52,16 @@ class RowSum {
     const Addend* addend;
     std::size_t row;
   };
-  /// The parts of row u end at end[u] and begin at the end of the row before.
-  std::vector<Part> parts_by_unknown(const std::vector<char>& wanted,
+  void append(std::span<const LocalId> unknowns, const double* matrix);
+  /// The parts of row u end at end[u] and begin at the end of the row before. unknowns: of all
+  /// addends; wanted: flags of unknowns.
+  std::vector<Part> parts_by_unknown(const std::vector<LocalId>& unknowns,
+                                     const std::vector<char>& wanted,
                                      std::vector<std::size_t>& end) const;
 
   std::deque<Eigen::MatrixXd> made_;
   std::vector<Addend> addends_;
+  std::vector<LocalId> unknowns_;  ///< of one addend after the other
 };
 
 }  // namespace cdca

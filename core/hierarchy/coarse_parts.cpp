@@ -122,16 +122,18 @@ Vec2 CoarseParts::inside(GridIndex e) const {
 
 const std::vector<SidePortion>& CoarseParts::side(GridIndex e, std::size_t side) const {
   static const std::vector<SidePortion> whole{SidePortion{}};
-  return touched(e) ? element(e).sides[side] : whole;
+  const Element* element = find(e);
+  return element ? element->sides[side] : whole;
 }
 
 int CoarseParts::part_of(GridIndex child, int part) const {
   const GridIndex e{child.i / 2, child.j / 2};
-  return touched(e) ? element(e).part_of_child[slot_of(child)][std::size_t(part)] : 0;
+  const Element* element = find(e);
+  return element ? element->part_of_child[slot_of(child)][std::size_t(part)] : 0;
 }
 
 PlainStiffness CoarseParts::stiffness(GridIndex e, int part) const {
-  if (touched(e)) return element(e).stiffness[std::size_t(part)];
+  if (const Element* element = find(e)) return element->stiffness[std::size_t(part)];
   const Vec2 share = inside(e), &h = grid_.element_size();
   if (share.minCoeff() >= 1.0) return plain_;
   PlainStiffness k = PlainStiffness::Zero();
@@ -141,10 +143,12 @@ PlainStiffness CoarseParts::stiffness(GridIndex e, int part) const {
   return k;
 }
 
-const CoarseParts::Element& CoarseParts::element(GridIndex e) const {
+const CoarseParts::Element* CoarseParts::find(GridIndex e) const {
+  if (!grid_.has_element(e)) return nullptr;
   const GlobalId id = grid_.element(e);
   const auto it = cache_.find(id);
-  return it != cache_.end() ? it->second : cache_.emplace(id, make_element(e)).first->second;
+  if (it != cache_.end()) return &it->second;
+  return is_touched_.count(id) > 0 ? &cache_.emplace(id, make_element(e)).first->second : nullptr;
 }
 
 CoarseParts::Element CoarseParts::make_element(GridIndex e) const {

@@ -59,7 +59,10 @@ class CoarseParts final : public ScaleParts {
   const StructuredGrid& grid() const override { return grid_; }
   const std::vector<GlobalId>& touched_elements() const override { return touched_; }
   bool touched(GridIndex e) const override;
-  int parts(GridIndex e) const override { return touched(e) ? element(e).parts : 1; }
+  int parts(GridIndex e) const override {
+    const Element* element = find(e);
+    return element ? element->parts : 1;
+  }
   const std::vector<SidePortion>& side(GridIndex e, std::size_t side) const override;
   PlainStiffness stiffness(GridIndex element, int part) const override;
 
@@ -76,7 +79,8 @@ class CoarseParts final : public ScaleParts {
     std::array<std::vector<SidePortion>, 4> sides;
     std::vector<PlainStiffness> stiffness;
   };
-  const Element& element(GridIndex e) const;
+  /// Null where no crack touches the element.
+  const Element* find(GridIndex e) const;
   Element make_element(GridIndex e) const;
   void make_sides(GridIndex e, Element& element) const;
   void join_bonds();

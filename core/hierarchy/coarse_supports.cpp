@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/coarse_supports.hpp"
 
+#include "core/base/marked.hpp"
+
 #include <algorithm>
 #include <numbers>
 
@@ -10,8 +12,8 @@ namespace {
 
 /// Of the held unknowns those that are not coupled to a held one of the same direction.
 std::vector<LocalId> stand_alone(const CellStiffness& cells, const std::vector<char>& held) {
-  std::vector<double> everywhere(held.begin(), held.end());
-  cells.halo().copy_state(everywhere);
+  std::vector<char> everywhere = held;
+  for (const LocalId u : cells.halo().ghosts_of(held)) everywhere[std::size_t(u)] = 1;
   std::vector<LocalId> alone;
   const StiffnessRows& rows = cells.rows();
   for (const LocalId u : cells.held()) {
@@ -20,11 +22,19 @@ std::vector<LocalId> stand_alone(const CellStiffness& cells, const std::vector<c
     for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k) {
       const LocalId v = rows.column[k];
       // x and y take turns
-      found = found || (v != u && (v - u) % 2 == 0 && everywhere[std::size_t(v)] > 0);
+      found = found || (v != u && (v - u) % 2 == 0 && everywhere[std::size_t(v)] != 0);
     }
     if (!found) alone.push_back(u);
   }
   return alone;
+}
+
+FewValues but_zeros(const std::vector<double>& values) {
+  FewValues few;
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    if (values[u] != 0.0) few.emplace_back(LocalId(u), values[u]);
+  }
+  return few;
 }
 
 }  // namespace
@@ -37,41 +47,46 @@ double point_softening(const PlainStiffness& element, const ElasticMatrix& elast
 
 CoarseSupports::CoarseSupports(const std::vector<char>& held, const std::vector<double>& springs,
                                double softening)
-    : held_(held), weak_(springs), points_(held.size(), 0.0), softening_(softening) {}
+    : held_(held), weak_(but_zeros(springs)), softening_(softening) {}
 
 void CoarseSupports::coarsen(const CellStiffness& cells, const ToCoarse& to_coarse) {
   constexpr double rigid = 1e6;
   for (const LocalId u : stand_alone(cells, held_)) {
     held_[std::size_t(u)] = 0;
-    points_[std::size_t(u)] = rigid;
+    points_.emplace_back(u, rigid);
   }
-  const auto sums = to_coarse(std::vector<double>(held_.begin(), held_.end()));
-  points_ = to_coarse(points_);
-  held_.resize(sums.size());
-  for (std::size_t u = 0; u < sums.size(); ++u) {
-    held_[u] = sums[u] > 0;
-    points_[u] = held_[u] || points_[u] == 0 ? 0 : 1 / (1 / points_[u] + softening_);
-  }
+  std::sort(points_.begin(), points_.end());
+  FewValues ones;
+  for (const LocalId u : marked(held_)) ones.emplace_back(u, 1.0);
+  const auto sums = to_coarse(ones);
+  points_ = but_zeros(to_coarse(points_));
+  held_.assign(sums.size(), 0);
+  for (std::size_t u = 0; u < sums.size(); ++u) held_[u] = sums[u] > 0;
+  std::erase_if(points_,
+                [this](const auto& point) { return held_[std::size_t(point.first)] != 0; });
+  for (auto& [u, stiffness] : points_) stiffness = 1 / (1 / stiffness + softening_);
   // a spring of four children weighs as much as theirs together
   double strength = 0.0;
-  for (const double s : weak_) strength = std::max(strength, 4 * s);
+  for (const auto& [u, share] : weak_) strength = std::max(strength, 4 * share);
   strength = cells.communicator().max(strength);
   if (strength == 0) return;
-  weak_ = to_coarse(weak_);
-  for (double& s : weak_) s = s > 0 ? strength : 0;
+  weak_ = but_zeros(to_coarse(weak_));
+  for (auto& [u, share] : weak_) share = strength;
 }
 
 std::vector<double> CoarseSupports::springs() const {
-  std::vector<double> sum = points_;
-  for (std::size_t u = 0; u < weak_.size(); ++u) sum[u] += weak_[u];
-  const bool none = std::all_of(sum.begin(), sum.end(), [](double s) { return s == 0; });
-  return none ? std::vector<double>() : sum;
+  if (points_.empty() && weak_.empty()) return {};
+  std::vector<double> sum(held_.size(), 0.0);
+  for (const auto* springs : {&points_, &weak_}) {
+    for (const auto& [u, share] : *springs) sum[std::size_t(u)] += share;
+  }
+  return sum;
 }
 
 std::vector<GlobalId> CoarseSupports::cells_at_points(const LocalMesh& mesh) const {
   std::vector<GlobalId> nodes;
-  for (LocalId u = 0; u < 2 * mesh.owned_nodes(); ++u) {
-    if (points_[std::size_t(u)] > 0) nodes.push_back(mesh.node_id(u / 2));
+  for (const auto& [u, share] : points_) {
+    if (u < 2 * mesh.owned_nodes()) nodes.push_back(mesh.node_id(u / 2));
   }
   return nodes;
 }

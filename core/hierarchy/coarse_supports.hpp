@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/cells/cell_stiffness.hpp"
+#include "core/hierarchy/transfer.hpp"
 
 #include <functional>
 #include <vector>
@@ -18,8 +19,8 @@ namespace cdca {
 /// 1/s' = 1/s + softening. Held hard instead it would cost steps of CG on every scale.
 class CoarseSupports {
  public:
-  /// Moves or forces of a scale, on the cells of the next one.
-  using ToCoarse = std::function<std::vector<double>(const std::vector<double>&)>;
+  /// Moves or forces of a scale, on all cells of the next one.
+  using ToCoarse = std::function<std::vector<double>(const FewValues&)>;
 
   /// Of the finest scale. held, springs: as for CellStiffness.
   CoarseSupports(const std::vector<char>& held, const std::vector<double>& springs,
@@ -36,8 +37,8 @@ class CoarseSupports {
 
  private:
   std::vector<char> held_;
-  std::vector<double> weak_;    ///< springs of bodies that nothing holds; empty for none
-  std::vector<double> points_;  ///< springs for supports at points
+  FewValues weak_;    ///< springs of bodies that nothing holds
+  FewValues points_;  ///< springs for supports at points
   double softening_;
 };
 

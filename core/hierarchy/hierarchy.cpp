@@ -34,10 +34,11 @@ class Hierarchy::Level final : public Scale {
       : mesh_(&mesh), unknowns_(&unknowns), cells_(&cells) {}
 
   /// A coarse scale. own_rows: cells of windows, or all cells of the coarsest.
-  Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator)
+  Level(const LocalMesh& mesh, std::unique_ptr<CoarseParts> parts, Communicator& communicator,
+        const CellUnknowns::Kept* kept)
       : parts_(std::move(parts)),
-        own_unknowns_(
-            std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(), communicator)),
+        own_unknowns_(std::make_unique<CellUnknowns>(mesh, *parts_, std::vector<TipZone>(),
+                                                     communicator, kept)),
         mesh_(&mesh),
         unknowns_(own_unknowns_.get()) {}
 
@@ -81,7 +82,7 @@ class Hierarchy::Level final : public Scale {
   }
   void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors,
                     const Level* before, const CarriedCells* carried) {
-    plain_ = PlainCells(*mesh_, *unknowns_, *cells_, plain, plans.near_cracks);
+    plain_ = PlainCells(*mesh_, *cells_, plain, plans.near_cracks);
     windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors,
                                          before ? before->windows_.get() : nullptr, carried);
   }
@@ -153,31 +154,35 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
   levels_[0]->set_smoother(finest_plans_, element, factors_, level_before(0), finest.carried);
   CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
-  std::vector<GlobalId> changed, turned;
-  if (finest.carried) changed = finest.carried->changed(), turned = finest.carried->turned();
+  ChangedElements changed;
+  if (finest.carried) changed = finest.carried->changed();
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     auto own_parts = std::make_unique<CoarseParts>(*finer, int(k) + 1, body, finest.elastic);
     const Level* was = level_before(k + 1);
+    std::optional<CellUnknowns::Kept> kept;
     if (was) {
-      changed = parents_of(changed, finer->grid());
-      turned = parents_of(turned, finer->grid());
-      own_parts->take_over(*was->parts(), changed);
+      changed.cuts = parents_of(changed.cuts, finer->grid());
+      changed.turned = parents_of(changed.turned, finer->grid());
+      changed.functions = changed.cuts;  // there are no near-tip functions
+      own_parts->take_over(*was->parts(), changed.cuts);
+      kept.emplace(CellUnknowns::Kept{was->unknowns(), changed.cuts});
     }
-    levels_.emplace_back(new Level(meshes_[k], std::move(own_parts), communicator));
+    levels_.emplace_back(
+        new Level(meshes_[k], std::move(own_parts), communicator, kept ? &*kept : nullptr));
     Level& level = *levels_.back();
     const CoarseParts& parts = *level.parts();
     levels_[k]->set_transfer(*finer, level);
     const Halo halo = level.halo(communicator);
-    supports.coarsen(levels_[k]->stiffness(), [&](const std::vector<double>& fine) {
+    supports.coarsen(levels_[k]->stiffness(), [&](const FewValues& fine) {
       std::vector<double> sum(std::size_t(level.unknowns().count()), 0.0);
-      levels_[k]->transfer().to_coarse(fine, halo, sum);
+      levels_[k]->transfer().few_to_coarse(fine, halo, sum);
       return sum;
     });
     const bool coarsest = k + 1 == meshes_.size();
     std::optional<CarriedCells> carried;
     if (was) {
       carried.emplace(meshes_[k], was->unknowns(), was->stiffness(), level.unknowns(), changed,
-                      turned, supports.held(), supports.springs());
+                      supports.held(), supports.springs());
     }
     const CarriedCells* same = carried ? &*carried : nullptr;
     const WindowPlans plans = coarsest ? WindowPlans() : plan_windows(parts, {}, shape_.windows);

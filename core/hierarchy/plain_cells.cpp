@@ -16,16 +16,10 @@ double jacobi_damping(const PlainStiffness& element) {
   return 4.0 / (3.0 * pairs.eigenvalues()[7]);
 }
 
-PlainCells::PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                       const CellStiffness& cells, const PlainStiffness& plain,
-                       const std::vector<GlobalId>& near_cracks)
+PlainCells::PlainCells(const LocalMesh& mesh, const CellStiffness& cells,
+                       const PlainStiffness& plain, const std::vector<GlobalId>& near_cracks)
     : omega_(jacobi_damping(plain)) {
   inverse_ = omega_ * cells.regular().diagonal().inverse();
-  std::vector<char> done(std::size_t(mesh.owned_nodes()), 0);
-  for (const GlobalId id : near_cracks) {
-    const LocalId n = mesh.find_node(mesh.grid().node_index(id));
-    if (n >= 0 && mesh.owns(n)) done[std::size_t(n)] = 1;
-  }
   LocalId end = 0;
   const auto close_gap = [&](LocalId next) {
     if (next > end) gaps_.push_back({end, next - end});
@@ -34,24 +28,31 @@ PlainCells::PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns,
     runs_.push_back({2 * run.node, 2 * run.count});
     close_gap(2 * run.node);
     end = 2 * (run.node + run.count);
-    std::fill_n(done.begin() + run.node, run.count, char(1));
   }
   close_gap(cells.owned());
-  std::vector<char> held(std::size_t(unknowns.count()), 0);
-  for (const LocalId u : cells.held()) held[std::size_t(u)] = 1;
+  // rows of plain unknowns come first, two and two
+  auto near = near_cracks.begin();
+  auto held = cells.held().begin();
+  const auto is_held = [&](LocalId u) {
+    while (held != cells.held().end() && *held < u) ++held;
+    return held != cells.held().end() && *held == u;
+  };
   const StiffnessRows& rows = cells.rows();
-  for (LocalId n = 0; n < mesh.owned_nodes(); ++n) {
-    if (done[std::size_t(n)]) continue;
-    const LocalId u = unknowns.of_piece(n, 0);
+  for (std::size_t row = 0; row < rows.unknown.size(); row += 2) {
+    const LocalId u = rows.unknown[row], n = u / 2;
+    if (!mesh.owns(n)) break;
+    const GlobalId id = mesh.node_id(n);
+    while (near != near_cracks.end() && *near < id) ++near;
+    if (near != near_cracks.end() && *near == id) continue;
     Eigen::Matrix2d own = Eigen::Matrix2d::Zero();
     for (LocalId c = 0; c < 2; ++c) {
-      const auto row = std::size_t(rows.find(u + c));
-      for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k) {
+      const std::size_t of_c = row + std::size_t(c);
+      for (std::size_t k = rows.start[of_c]; k < rows.start[of_c + 1]; ++k) {
         const LocalId other = rows.column[k] - u;
         if (other == 0 || other == 1) own(c, other) = rows.value[k];
       }
     }
-    const bool x = held[std::size_t(u)], y = held[std::size_t(u) + 1];
+    const bool x = is_held(u), y = is_held(u + 1);
     Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
     if (!x && !y) inverse = own.inverse();
     if (x && !y) inverse(1, 1) = 1 / own(1, 1);

@@ -14,8 +14,8 @@ class PlainCells {
  public:
   PlainCells() = default;
   /// near_cracks: own nodes left out, ascending global ids.
-  PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns, const CellStiffness& cells,
-             const PlainStiffness& plain, const std::vector<GlobalId>& near_cracks);
+  PlainCells(const LocalMesh& mesh, const CellStiffness& cells, const PlainStiffness& plain,
+             const std::vector<GlobalId>& near_cracks);
 
   void move(std::span<const double> forces, std::span<double> moves) const;
   /// As move(), with all own moves 0 before.

@@ -7,71 +7,78 @@ namespace cdca {
 
 namespace {
 
-std::vector<char> plain_cells(const LocalMesh& mesh, const CellUnknowns& unknowns) {
-  std::vector<char> plain(std::size_t(mesh.node_count()), 1);
-  for (const LocalId n : unknowns.special_nodes()) plain[std::size_t(n)] = 0;
-  return plain;
+std::vector<NodeRun> plain_runs(const LocalMesh& mesh, const CellUnknowns& unknowns) {
+  return runs_without(mesh.own_runs(), unknowns.special_nodes());
 }
+
+/// The runs of each row, from left to right.
+class RunsByRow {
+ public:
+  explicit RunsByRow(const std::vector<NodeRun>& runs) : runs_(runs) {
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      // own nodes are in order of rows
+      while (start_.size() <= std::size_t(runs[k].at.j)) start_.push_back(k);
+    }
+    start_.push_back(runs.size());
+  }
+  std::span<const NodeRun> in(int row) const {
+    if (std::size_t(row) + 1 >= start_.size()) return {};
+    return std::span(runs_).subspan(start_[std::size_t(row)],
+                                    start_[std::size_t(row) + 1] - start_[std::size_t(row)]);
+  }
+
+ private:
+  const std::vector<NodeRun>& runs_;
+  std::vector<std::size_t> start_;
+};
 
 }  // namespace
 
 Transfer::Transfer(const Scale& fine, const LocalMesh& coarse, const CellUnknowns& unknowns,
                    const CoarseParts& parts) {
-  std::vector<LocalId> others;
-  find_runs(fine.mesh, coarse, plain_cells(fine.mesh, fine.unknowns), plain_cells(coarse, unknowns),
-            others);
+  const auto others =
+      find_runs(fine.mesh, plain_runs(fine.mesh, fine.unknowns), plain_runs(coarse, unknowns));
   for (const LocalId n : others) add_entries(fine, n, coarse, unknowns, parts);
 }
 
-void Transfer::find_runs(const LocalMesh& fine, const LocalMesh& coarse,
-                         const std::vector<char>& plain_fine, const std::vector<char>& plain_coarse,
-                         std::vector<LocalId>& others) {
+std::vector<LocalId> Transfer::find_runs(const LocalMesh& fine, const std::vector<NodeRun>& plain,
+                                         const std::vector<NodeRun>& plain_coarse) {
   // runs address own coarse cells only: those of ghosts are numbered apart
-  const auto usable = [&](LocalId c, GridIndex at) {
-    return c >= 0 && c < coarse.owned_nodes() && plain_coarse[std::size_t(c)] &&
-           coarse.node(c) == at;
-  };
-  for (LocalId n = 0; n < fine.owned_nodes(); ++n) {
-    const GridIndex at = fine.node(n);
-    const int left = at.i / 2, right = (at.i + 1) / 2, low = at.j / 2, high = (at.j + 1) / 2;
-    if (!plain_fine[std::size_t(n)]) {
-      others.push_back(n);
-      continue;
-    }
-    if (!runs_.empty()) {
-      Run& run = runs_.back();
-      const bool follows =
-          run.fine + run.count == n && fine.node(n - 1) == GridIndex{at.i - 1, at.j};
-      const LocalId ahead = right - fine.node(run.fine).i / 2;
-      if (follows && usable(run.below + ahead, {right, low}) &&
-          usable(run.above + ahead, {right, high})) {
-        ++run.count;
-        continue;
+  const RunsByRow coarse(plain_coarse);
+  std::vector<NodeRun> found;
+  for (const NodeRun& run : plain) {
+    // a fine cell at column i has its parents at i/2, rounded down and up
+    for (const NodeRun& below : coarse.in(run.at.j / 2)) {
+      for (const NodeRun& above : coarse.in((run.at.j + 1) / 2)) {
+        const int first = std::max({run.at.i, 2 * below.at.i, 2 * above.at.i});
+        const int last = std::min(
+            {run.end_column() - 1, 2 * (below.end_column() - 1), 2 * (above.end_column() - 1)});
+        if (first > last) continue;
+        const LocalId n = run.first + (first - run.at.i), count = last - first + 1;
+        found.push_back({n, count, {first, run.at.j}});
+        runs_.push_back({n, count, first % 2 == 1, below.first + (first / 2 - below.at.i),
+                         above.first + (first / 2 - above.at.i)});
       }
     }
-    const LocalId below = coarse.find_node({left, low}), above = coarse.find_node({left, high});
-    const LocalId ahead = right - left;
-    if (usable(below, {left, low}) && usable(above, {left, high}) &&
-        usable(below + ahead, {right, low}) && usable(above + ahead, {right, high})) {
-      runs_.push_back({n, 1, at.i % 2 == 1, below, above});
-    } else {
-      others.push_back(n);
-    }
   }
+  return nodes_between(found, fine.owned_nodes());
 }
 
 void Transfer::add_entries(const Scale& fine, LocalId node, const LocalMesh& coarse,
                            const CellUnknowns& unknowns, const CoarseParts& parts) {
   const GridIndex at = fine.mesh.node(node);
   const auto elements = fine.mesh.grid().elements_round(at);
-  std::vector<char> done(std::size_t(fine.unknowns.pieces(node)), 0);
-  for (std::size_t slot = 0; slot < 4; ++slot) {
+  const SpecialCell* cell = fine.unknowns.special(node);
+  const int pieces = cell ? cell->pieces->count : 1;
+  int next = 0;  // pieces are numbered as they are met here
+  for (std::size_t slot = 0; slot < 4 && next < pieces; ++slot) {
     const GridIndex e = elements[slot];
     if (!fine.mesh.grid().has_element(e)) continue;
-    for (int part = 0; part < fine.parts.parts(e); ++part) {
-      const int piece = fine.unknowns.piece(node, slot, part);
-      if (done[std::size_t(piece)]) continue;
-      done[std::size_t(piece)] = 1;
+    const int parts_here = cell ? int(cell->pieces->piece[slot].size()) : 1;
+    for (int part = 0; part < parts_here; ++part) {
+      const int piece = cell ? cell->pieces->piece[slot][std::size_t(part)] : 0;
+      if (piece < next) continue;
+      next = piece + 1;
       // a fine piece lies in one part of the coarse element, whichever of its own parts is asked
       const GridIndex parent{e.i / 2, e.j / 2};
       const int coarse_part = parts.part_of(e, part);
@@ -122,6 +129,34 @@ void Transfer::to_coarse(std::span<const double> fine, const Halo& halo,
   for (const Entry& e : entries_) {
     coarse[std::size_t(e.coarse)] += e.weight * fine[std::size_t(e.fine)];
     coarse[std::size_t(e.coarse) + 1] += e.weight * fine[std::size_t(e.fine) + 1];
+  }
+  halo.add_forces(coarse);
+}
+
+void Transfer::few_to_coarse(const FewValues& fine, const Halo& halo,
+                             std::span<double> coarse) const {
+  const auto add = [&](LocalId coarse_unknown, LocalId component, double value) {
+    coarse[std::size_t(coarse_unknown + component)] += value;
+  };
+  auto run = runs_.begin();
+  for (const auto& [u, value] : fine) {
+    while (run != runs_.end() && u >= 2 * (run->fine + run->count)) ++run;
+    if (run == runs_.end()) break;
+    if (u < 2 * run->fine) continue;
+    const LocalId component = u % 2;
+    const LocalId ahead = u / 2 - run->fine + LocalId(run->odd);  // in fine columns
+    const double share = (run->above != run->below ? 0.5 : 1.0) * (ahead % 2 == 1 ? 0.5 : 1.0);
+    for (const LocalId row : {run->below, run->above}) {
+      add(2 * (row + ahead / 2), component, share * value);
+      if (ahead % 2 == 1) add(2 * (row + ahead / 2 + 1), component, share * value);
+      if (run->above == run->below) break;
+    }
+  }
+  for (const Entry& e : entries_) {
+    auto at = std::lower_bound(fine.begin(), fine.end(), e.fine,
+                               [](const auto& few, LocalId u) { return few.first < u; });
+    for (; at != fine.end() && at->first <= e.fine + 1; ++at)
+      add(e.coarse, at->first - e.fine, e.weight * at->second);
   }
   halo.add_forces(coarse);
 }

@@ -6,9 +6,13 @@
 #include "core/hierarchy/coarse_parts.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cdca {
+
+/// Values of few unknowns of a scale, in order of unknowns; those of the others are 0.
+using FewValues = std::vector<std::pair<LocalId, double>>;
 
 /// Bilinear interpolation P. A fine piece takes its displacement from the coarse pieces that
 /// contain it only, so none crosses a crack. Near-tip unknowns take part on the grid itself alone:
@@ -25,6 +29,8 @@ class Transfer {
 
   /// coarse = P^T fine, of own cells. Collective.
   void to_coarse(std::span<const double> fine, const Halo& halo, std::span<double> coarse) const;
+  /// The same of few forces; coarse must be 0 before. Collective.
+  void few_to_coarse(const FewValues& fine, const Halo& halo, std::span<double> coarse) const;
   /// fine += P coarse, on own cells. Collective.
   void add_to_fine(std::span<double> coarse, const Halo& halo, std::span<double> fine) const;
 
@@ -48,9 +54,9 @@ class Transfer {
   static void gather_row(const Run& run, double share, const double* fine, double* coarse);
   template <class Coarse>
   static void spread_row(const Run& run, const Coarse& coarse, double* fine);
-  void find_runs(const LocalMesh& fine, const LocalMesh& coarse,
-                 const std::vector<char>& plain_fine, const std::vector<char>& plain_coarse,
-                 std::vector<LocalId>& others);
+  /// plain: runs of own plain cells of both scales. Returns the fine ones that are in no run.
+  std::vector<LocalId> find_runs(const LocalMesh& fine, const std::vector<NodeRun>& plain,
+                                 const std::vector<NodeRun>& plain_coarse);
   void add_entries(const Scale& fine, LocalId node, const LocalMesh& coarse,
                    const CellUnknowns& unknowns, const CoarseParts& parts);
 

@@ -23,8 +23,7 @@ class Windows::Builder {
         factors_(factors),
         before_(before),
         carried_(carried),
-        held_(std::size_t(unknowns.count()), 0),
-        place_(std::size_t(unknowns.count()), outside) {
+        held_(std::size_t(unknowns.count()), 0) {
     for (const LocalId u : windows.cells_.held()) held_[std::size_t(u)] = 1;
   }
 
@@ -127,6 +126,7 @@ class Windows::Builder {
 
   /// Own members, their couplings to cells outside, and their rows inside.
   Share make_share(const std::vector<GlobalId>& nodes, Contribution& own) {
+    place_.resize(std::size_t(unknowns_.count()), outside);  // if any window is not kept
     Share share;
     std::map<LocalId, Key> ghosts;
     for (const GlobalId id : nodes) {
@@ -146,11 +146,21 @@ class Windows::Builder {
       }
     }
     const StiffnessRows& rows = windows_.cells_.rows();
+    std::vector<std::size_t> row_of(share.members.size());
+    std::size_t row = 0, entries = 0;
     for (std::size_t m = 0; m < share.members.size(); ++m) {
-      const std::ptrdiff_t row = rows.find(share.members[m]);
-      if (row < 0) throw SolveError("a cell of a window has no row of its own");
-      for (std::size_t k = rows.start[std::size_t(row)]; k < rows.start[std::size_t(row) + 1];
-           ++k) {
+      // rows of a cell, and those of the next one, mostly follow each other
+      if (++row >= rows.unknown.size() || rows.unknown[row] != share.members[m]) {
+        const std::ptrdiff_t found = rows.find(share.members[m]);
+        if (found < 0) throw SolveError("a cell of a window has no row of its own");
+        row = std::size_t(found);
+      }
+      row_of[m] = row;
+      entries += rows.start[row + 1] - rows.start[row];
+    }
+    own.entries.reserve(entries);
+    for (std::size_t m = 0; m < share.members.size(); ++m) {
+      for (std::size_t k = rows.start[row_of[m]]; k < rows.start[row_of[m] + 1]; ++k) {
         const LocalId column = rows.column[k];
         const int place = place_[std::size_t(column)];
         if (place == outside) {

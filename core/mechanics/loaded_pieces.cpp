@@ -9,10 +9,6 @@ namespace cdca {
 
 namespace {
 
-std::uint64_t key_of(LocalId node, int piece) {
-  return (std::uint64_t(node) << 16) | std::uint64_t(piece);
-}
-
 bool any(const LoadVector& load) { return load[0].has_value() || load[1].has_value(); }
 
 /// A plain zero says that a side is free.
@@ -52,7 +48,7 @@ void LoadedPieces::mark_side(const BasisContext& c, Side side, std::uint64_t bit
       if (portion.closed) continue;
       for (const std::size_t corner : {geometry.first_corner, geometry.last_corner}) {
         const int piece = c.unknowns.piece(nodes[corner], (corner + 2) % 4, portion.part);
-        marks_[key_of(nodes[corner], piece)] |= bits;
+        marks_.push_back({nodes[corner], piece, bits});
       }
     }
   }
@@ -65,13 +61,8 @@ void LoadedPieces::mark_point(const BasisContext& c, const Vec2& x, std::uint64_
   const auto nodes = c.mesh.element_nodes(e);
   const int part = c.cuts.part_at(e, at);
   for (std::size_t a = 0; a < 4; ++a) {
-    marks_[key_of(nodes[a], c.unknowns.piece(nodes[a], (a + 2) % 4, part))] |= bits;
+    marks_.push_back({nodes[a], c.unknowns.piece(nodes[a], (a + 2) % 4, part), bits});
   }
-}
-
-std::uint64_t LoadedPieces::marks(LocalId node, int piece) const {
-  const auto it = marks_.find(key_of(node, piece));
-  return it == marks_.end() ? 0 : it->second;
 }
 
 }  // namespace cdca

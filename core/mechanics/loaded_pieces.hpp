@@ -2,11 +2,10 @@
 /// Which pieces of cells the loaded boundaries touch.
 #pragma once
 
-#include "core/cells/part_basis.hpp"
+#include "core/cells/bodies.hpp"
 #include "core/mechanics/boundary_spec.hpp"
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace cdca {
@@ -21,14 +20,14 @@ class LoadedPieces {
 
   LoadedPieces(const BasisContext& context, const std::vector<BoundarySpec>& blocks);
 
-  /// Bits of a piece of an own cell.
-  std::uint64_t marks(LocalId node, int piece) const;
+  /// Bits of pieces of this rank, in no order; one piece may be listed several times.
+  const std::vector<PieceMarks>& marks() const { return marks_; }
 
  private:
   void mark_side(const BasisContext& context, Side side, std::uint64_t bits);
   void mark_point(const BasisContext& context, const Vec2& at, std::uint64_t bits);
 
-  std::unordered_map<std::uint64_t, std::uint64_t> marks_;
+  std::vector<PieceMarks> marks_;
 };
 
 }  // namespace cdca

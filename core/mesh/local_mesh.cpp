@@ -77,6 +77,11 @@ LocalMesh::LocalMesh(const StructuredGrid& grid, const BlockPartition& partition
   held.sort();
   append(own, nodes_, node_index_);
   owned_ = LocalId(nodes_.size());
+  LocalId next = 0;
+  own.for_each([&](int row, const RowSpans::Span& span) {
+    own_runs_.push_back({next, span.end - span.first, {span.first, row}});
+    next = own_runs_.back().end();
+  });
   append(held.without(own), nodes_, node_index_);
   node_index_.finish();
   element_index_.finish();

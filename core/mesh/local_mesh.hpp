@@ -5,6 +5,7 @@
 
 #include "core/mesh/block_partition.hpp"
 #include "core/mesh/grid.hpp"
+#include "core/mesh/node_runs.hpp"
 #include "core/mesh/row_index.hpp"
 
 #include <span>
@@ -34,6 +35,8 @@ class LocalMesh {
   LocalId owned_nodes() const { return owned_; }
   LocalId node_count() const { return LocalId(nodes_.size()); }
   bool owns(LocalId node) const { return node < owned_; }
+  /// All own nodes, as long runs as there are.
+  const std::vector<NodeRun>& own_runs() const { return own_runs_; }
   GridIndex node(LocalId node) const { return nodes_[std::size_t(node)]; }
   GlobalId node_id(LocalId node) const { return grid_.node(nodes_[std::size_t(node)]); }
   /// -1 when this rank does not hold it.
@@ -70,6 +73,7 @@ class LocalMesh {
   BlockPartition partition_;
   int rank_ = 0;
   LocalId owned_ = 0;
+  std::vector<NodeRun> own_runs_;
   std::vector<GridIndex> nodes_;
   std::vector<GridIndex> elements_;
   RowIndex node_index_;

@@ -33,7 +33,8 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
                     partition_cells(grid_, weights, communicator_, partitioner,
                                     most_blocks(communicator_.size())),
                     communicator_.rank());
-  build_cells();
+  build_cells(nullptr);
+  state_.assign(std::size_t(unknowns_.count()), 0.0);
   refuse_loose_bodies();
 }
 
@@ -45,7 +46,8 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       hierarchy_({{}, spec.solver.coarsest_nodes}) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
-  build_cells();
+  build_cells(nullptr);
+  state_.assign(std::size_t(unknowns_.count()), 0.0);
   refuse_loose_bodies();
 }
 
@@ -76,12 +78,11 @@ std::vector<ContactSpec> Model::contact_laws() const {
   return laws;
 }
 
-void Model::build_cells() {
+void Model::build_cells(const CellUnknowns::Kept* kept) {
   stiffness_cache_.begin_cycle();
   intensity_cache_.begin_cycle();
-  unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_);
+  unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_, kept);
   supports_ = Supports(basis(), spec_.boundaries);
-  state_.assign(std::size_t(unknowns_.count()), 0.0);
   spots_ = ContactSpots(basis(), contact_, material_.elastic_matrix());
   find_bodies();
   elastic_ = material_.elastic_matrix();
@@ -91,9 +92,8 @@ void Model::build_cells() {
 
 void Model::find_bodies() {
   const LoadedPieces loaded(basis(), spec_.boundaries);
-  bodies_ = std::make_unique<Bodies>(
-      basis(), supports_.flags(unknowns_.count()),
-      [&](LocalId node, int piece) { return loaded.marks(node, piece); }, communicator_);
+  bodies_ = std::make_unique<Bodies>(basis(), supports_.flags(unknowns_.count()), loaded.marks(),
+                                     communicator_);
   if (contact_.empty()) return;
   spots_.find_bodies([&](GridIndex e, int part) { return int(body_of(e, part)); }, contact_,
                      communicator_);
@@ -156,7 +156,7 @@ void Model::let_slip() {
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
 void Model::renew_stiffness(double weak_share) {
-  const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {}, turned_elements(),
+  const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {{}, {}, turned_elements()},
                              supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
 }
@@ -204,29 +204,35 @@ void Model::lay_cracks(CrackRegistry registry) {
   const CellUnknowns old_unknowns = std::move(unknowns_);
   const ElementCuts old_cuts = std::move(cuts_);
   const std::vector<TipZone> old_zones = std::move(zones_);
-  const std::vector<double> old_state = std::move(state_);
+  std::vector<double> old_state = std::move(state_);
   registry_ = std::move(registry);
   cuts_ = ElementCuts(grid_, lay_paths(grid_, registry_), old_cuts);
   contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), &contact_);
   find_zones();
-  build_cells();
+  ChangedElements changed;
+  changed.cuts = changed_cuts(old_cuts, cuts_);
+  const CellUnknowns::Kept kept{old_unknowns, changed.cuts};
+  build_cells(&kept);
   close_new_faces();
-  carry_state({mesh_, old_cuts, old_zones, old_unknowns}, old_state, basis(), state_);
+  state_ = carried_state({mesh_, old_cuts, old_zones, old_unknowns}, std::move(old_state), basis());
   constexpr double weak_share = 1e-3;
   if (!stiffness_) {
     make_stiffness(weak_share, nullptr);
     return;
   }
-  auto changed = changed_elements(old_cuts, old_zones, cuts_, zones_);
-  if (!contact_.empty()) changed = with_other_sides(std::move(changed), cuts_);
+  changed.functions = with_changed_zones(changed.cuts, old_zones, zones_);
+  if (!contact_.empty()) {
+    changed.cuts = with_other_sides(std::move(changed.cuts), cuts_);
+    changed.functions = with_other_sides(std::move(changed.functions), cuts_);
+  }
+  changed.turned = turned_elements();
   const CarriedCells carried(mesh_, old_unknowns, *stiffness_, unknowns_, std::move(changed),
-                             turned_elements(), supports_.flags(unknowns_.count()),
-                             springs(weak_share));
+                             supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
 }
 
 void Model::start_from(const CrackedField& field) {
-  carry_state({mesh_, field.cuts, field.zones, field.unknowns}, field.state, basis(), state_);
+  state_ = carried_state({mesh_, field.cuts, field.zones, field.unknowns}, field.state, basis());
 }
 
 std::vector<std::size_t> Model::loose_bodies() const {
@@ -256,7 +262,8 @@ void Model::put_back(CrackRegistry registry, const std::vector<ContactPatch>& pa
   contact_ = ContactPatches(cuts_, contact_laws(), registry_.cracks(), nullptr);
   contact_.put_back(patches);
   find_zones();
-  build_cells();
+  build_cells(nullptr);
+  state_.assign(std::size_t(unknowns_.count()), 0.0);
   build_stiffness();
 }
 

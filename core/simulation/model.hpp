@@ -149,7 +149,8 @@ class Model {
   void find_zones();
   /// Faces of bodies that nothing else holds touch until an equilibrium shows that they do not.
   void close_new_faces();
-  void build_cells();
+  /// All but the displacements.
+  void build_cells(const CellUnknowns::Kept* kept);
   void find_bodies();
   void make_stiffness(double weak_share, const CarriedCells* carried);
   /// Where springs of faces are not those that the stiffness was built with, on both sides.

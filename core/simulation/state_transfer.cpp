@@ -2,6 +2,7 @@
 #include "core/simulation/state_transfer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cdca {
 
@@ -9,7 +10,9 @@ namespace {
 
 /// The old piece where a new one has its first part.
 int old_piece_of(const BasisContext& before, const BasisContext& after, LocalId node, int piece) {
-  const CellPieces& pieces = after.unknowns.special(node)->pieces;
+  const SpecialCell* was = before.unknowns.special(node);
+  const CellPieces& pieces = *after.unknowns.special(node)->pieces;
+  if (was && was->pieces.get() == &pieces) return piece;  // nothing has changed round the cell
   const auto elements = after.mesh.grid().elements_round(after.mesh.node(node));
   for (std::size_t slot = 0; slot < 4; ++slot) {
     const auto& parts = pieces.piece[slot];
@@ -38,25 +41,30 @@ const TipUnknowns* same_tip(const BasisContext& before, LocalId node, const TipZ
 
 }  // namespace
 
-void carry_state(const BasisContext& before, std::span<const double> old_state,
-                 const BasisContext& after, std::span<double> state) {
-  const auto copy = [&](LocalId from, LocalId to, LocalId count) {
+std::vector<double> carried_state(const BasisContext& before, std::vector<double> old_state,
+                                  const BasisContext& after) {
+  std::vector<std::pair<LocalId, double>> special;
+  const auto carry = [&](LocalId from, LocalId to, LocalId count) {
     for (LocalId k = 0; k < count; ++k)
-      state[std::size_t(to + k)] = old_state[std::size_t(from + k)];
+      special.emplace_back(to + k, old_state[std::size_t(from + k)]);
   };
-  // most cells are plain, and have their two unknowns at the same place
-  copy(0, 0, 2 * after.mesh.owned_nodes());
   for (const LocalId n : after.unknowns.special_nodes()) {
     if (!after.mesh.owns(n)) break;
     for (int p = 0; p < after.unknowns.pieces(n); ++p) {
       const int old = old_piece_of(before, after, n, p);
-      copy(before.unknowns.of_piece(n, old), after.unknowns.of_piece(n, p), 2);
+      carry(before.unknowns.of_piece(n, old), after.unknowns.of_piece(n, p), 2);
     }
     for (const TipUnknowns& tip : after.unknowns.tips(n)) {
       const TipUnknowns* old = same_tip(before, n, after.zones[std::size_t(tip.zone)]);
-      if (old && old->count == tip.count) copy(old->first, tip.first, tip.count);
+      if (old && old->count == tip.count) carry(old->first, tip.first, tip.count);
     }
   }
+  // most cells are plain, and have their two unknowns at the same place
+  std::vector<double> state = std::move(old_state);
+  state.resize(std::size_t(2 * after.mesh.owned_nodes()));
+  state.resize(std::size_t(after.unknowns.count()), 0.0);
+  for (const auto& [u, value] : special) state[std::size_t(u)] = value;
+  return state;
 }
 
 }  // namespace cdca

@@ -7,8 +7,9 @@
 namespace cdca {
 
 /// Gives every piece of an own cell the displacement of the old piece at the same place, and tips
-/// that have hardly moved their old coefficients. A start value only: any state would do.
-void carry_state(const BasisContext& before, std::span<const double> old_state,
-                 const BasisContext& after, std::span<double> state);
+/// that have hardly moved their old coefficients; ghosts are at 0. A start value only: any state
+/// would do.
+std::vector<double> carried_state(const BasisContext& before, std::vector<double> old_state,
+                                  const BasisContext& after);
 
 }  // namespace cdca

@@ -31,11 +31,12 @@ class Pieces {
     unknowns_ = CellUnknowns(mesh_, cuts_, zones_, world());
   }
   BasisContext context() const { return {mesh_, cuts_, zones_, unknowns_}; }
-  Bodies with_marks(const std::vector<BoundarySpec>& supports, const Bodies::Marks& marks) const {
+  Bodies with_marks(const std::vector<BoundarySpec>& supports,
+                    const std::vector<PieceMarks>& marks) const {
     return {context(), Supports(context(), supports).flags(unknowns_.count()), marks, world()};
   }
   std::vector<Body> bodies(const std::vector<BoundarySpec>& supports = {}) const {
-    return with_marks(supports, [](LocalId, int) { return 0U; }).list();
+    return with_marks(supports, {}).list();
   }
   std::int64_t count() const {
     std::int64_t own = 0;
@@ -115,21 +116,25 @@ TEST(BodiesParallel, AreTheSameListOnAllRanks) {
 TEST(BodiesParallel, CollectTheMarksOfTheirPieces) {
   const Pieces pieces({across, {{4.2, 8}, {4, 4.05}}});
   // one bit for the lower rim, one each for the upper corners
-  const auto marks = [&pieces](LocalId n, int) -> std::uint64_t {
-    const GridIndex at = pieces.context().mesh.node(n);
+  const BasisContext context = pieces.context();
+  const LocalMesh& mesh = context.mesh;
+  const auto marks = [&mesh](LocalId n) -> std::uint64_t {
+    const GridIndex at = mesh.node(n);
     return at.j == 0 ? 1 : at.j < 8 ? 0 : at.i == 0 ? 2 : at.i == 8 ? 4 : 0;
   };
-  const Bodies bodies = pieces.with_marks({}, marks);
+  std::vector<PieceMarks> listed;
+  for (LocalId n = 0; n < mesh.node_count(); ++n) {
+    for (int p = 0; p < context.unknowns.pieces(n); ++p) listed.push_back({n, p, marks(n)});
+  }
+  const Bodies bodies = pieces.with_marks({}, listed);
   ASSERT_EQ(bodies.list().size(), 3u);
   std::vector<std::uint64_t> found;
   for (const Body& body : bodies.list()) found.push_back(body.marks);
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, (std::vector<std::uint64_t>{1, 2, 4}));
-  const LocalMesh& mesh = pieces.context().mesh;
   for (LocalId n = 0; n < mesh.node_count(); ++n) {
-    if (marks(n, 0) == 0) continue;
-    EXPECT_EQ(bodies.list().at(bodies.body_of(n, 0)).marks, marks(n, 0))
-        << "node " << mesh.node_id(n);
+    if (marks(n) == 0) continue;
+    EXPECT_EQ(bodies.list().at(bodies.body_of(n, 0)).marks, marks(n)) << "node " << mesh.node_id(n);
   }
 }
 

@@ -207,7 +207,7 @@ TEST_P(PiecesParallel, GhostsHaveThePiecesOfTheirOwners) {
     EXPECT_EQ(unknowns_.pieces(n), whole.count) << "node " << mesh_.node_id(n);
     EXPECT_EQ(cell != nullptr, whole.count > 1 || !tips.empty()) << "node " << mesh_.node_id(n);
     if (!cell) continue;
-    EXPECT_EQ(cell->pieces, whole) << "node " << mesh_.node_id(n);
+    EXPECT_EQ(*cell->pieces, whole) << "node " << mesh_.node_id(n);
     std::vector<int> zones;
     for (const TipUnknowns& tip : cell->tips) {
       zones.push_back(tip.zone);
