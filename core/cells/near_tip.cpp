@@ -11,6 +11,7 @@ namespace cdca {
 namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double largest_bend = 110.0 / 180.0 * pi;
+constexpr double straight_on = 1e-9;  ///< rad: bends less than this do not show
 }  // namespace
 
 NearTipValues near_tip_functions(const TipPolar& p) {
@@ -50,8 +51,13 @@ TipFrame::TipFrame(std::vector<Vec2> path, bool end_is_open) : path_(std::move(p
 }
 
 std::vector<double> TipFrame::bends() const {
-  if (radius_.size() <= 2) return {};
-  return {radius_.begin() + 1, radius_.end() - 1};
+  std::vector<double> found;
+  for (std::size_t k = 1; k + 1 < path_.size(); ++k) {
+    const Vec2 out = (path_[k] - path_[k - 1]).normalized();
+    if (std::abs(cross(out, (path_[k + 1] - path_[k]).normalized())) > straight_on)
+      found.push_back(radius_[k]);
+  }
+  return found;
 }
 
 Vec2 TipFrame::local(const Vec2& x) const {

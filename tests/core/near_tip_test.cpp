@@ -222,6 +222,8 @@ TEST(TipFrameTest, KnowsWhereItBends) {
   ASSERT_EQ(bends.size(), 2u);
   EXPECT_NEAR(bends[0], 0.4, 1e-14);
   EXPECT_NEAR(bends[1], (path[2] - path[0]).norm(), 1e-14);
+  EXPECT_TRUE(TipFrame(bent_path({1.0, 0.5, 2.0}, {0.0, 0.0}), false).bends().empty())
+      << "growth straight on is no bend";
 }
 
 TEST(TipFrameTest, ReachesAsFarAsTheCrackGoesOn) {
