@@ -6,6 +6,7 @@
 #include "core/simulation/recorded_solve.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace cdca {
 
@@ -42,43 +43,93 @@ CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
   return found;
 }
 
+/// The place from which the search tries loads: what is behind it has become history.
+class Stop {
+ public:
+  Stop(Model& model, const EquilibriumSolver& solver, Recorder& recorder,
+       const CriticalStart& start)
+      : model_(model),
+        solver_(solver),
+        recorder_(recorder),
+        start_factor_(start.last_factor),
+        factor_(start.last_factor),
+        energy_(start.energy),
+        contact_(model.contact_memory()),
+        state_(model.state()) {}
+
+  /// Equilibrium at a load factor; where faces do not settle, by way of a stop halfway.
+  Equilibrium solve(double factor, int halvings = 2) {
+    try {
+      return solve_recorded(model_, solver_, factor, recorder_);
+    } catch (const ContactError&) {
+      if (halvings == 0 || factor_ == 0.0 || factor == factor_) throw;
+    }
+    go_back();
+    model_.state() = state_;
+    const double middle = 0.5 * (factor_ + factor);
+    move_to(solve(middle, halvings - 1), middle);
+    return solve(factor, halvings - 1);
+  }
+
+  /// The model is at an equilibrium that the body passes through: from here on.
+  void move_to(const Equilibrium& here, double factor) {
+    energy_.new_factor(model_, here, factor);
+    const bool loads_at_rest = factor == start_factor_ && factor_ == start_factor_;
+    accept_contact(model_, loads_at_rest ? Model::Since::other_cracks : Model::Since::other_loads,
+                   energy_);
+    factor_ = factor;
+    contact_ = model_.contact_memory();
+    state_ = model_.state();
+  }
+
+  /// Faces are what they were here; displacements stay, as a start.
+  void go_back() {
+    model_.remember(contact_);
+    model_.renew_stiffness();
+  }
+  const EnergyLedger& energy() const { return energy_; }
+
+ private:
+  Model& model_;
+  const EquilibriumSolver& solver_;
+  Recorder& recorder_;
+  double start_factor_;
+  double factor_;  ///< 0: before any growth, when nothing is known of the way
+  EnergyLedger energy_;
+  Model::ContactMemory contact_;
+  std::vector<double> state_;
+};
+
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, const CriticalStart& start,
                                    Recorder& recorder) {
   constexpr int most = 100;
-  const Model::ContactMemory at_start = model.contact_memory();
-  Model::ContactMemory at_stop = at_start;  // where every trial begins
+  const Stop first(model, solver, recorder, start);
+  std::optional<Stop> stop(first);
   CriticalFactor search(start.last_factor, start.first_factor);
   CriticalState found;
-  found.energy = start.energy;
-  for (int round = 0; round < most; ++round) {
+  for (int round = 0; round < most && !search.ended(); ++round) {
     const double next = search.next();
+    const bool far = std::abs(next - found.factor) > long_way * found.factor;
     if (search.back_at_start()) {
-      at_stop = at_start;
-      found.energy = start.energy;
-    } else if (round > 0 && search.on_the_way() &&
-               std::abs(next - found.factor) > long_way * found.factor) {
-      const bool loads_at_rest = round == 1 && found.factor == start.last_factor;
-      found.energy.new_factor(model, found.equilibrium, found.factor);
-      accept_contact(model, loads_at_rest ? Model::Since::other_cracks : Model::Since::other_loads,
-                     found.energy);
-      at_stop = model.contact_memory();
+      stop.emplace(first);
+    } else if (round > 0 && search.on_the_way() && far) {
+      stop->move_to(found.equilibrium, found.factor);
     }
-    if (round > 0) {
-      model.remember(at_stop);
-      model.renew_stiffness();
-    }
+    if (round > 0) stop->go_back();
     found.factor = next;
-    found.equilibrium = solve_recorded(model, solver, found.factor, recorder);
-    found.tips = criterion.assess(model, found.factor);
+    found.equilibrium = stop->solve(next);
+    found.tips = criterion.assess(model, next);
     search.tell(greatest_index(found.tips));
-    if (!search.ended()) continue;
-    found.grows = search.grows();
-    return found;
   }
-  throw ContactError(
-      "the load factor at which the next tip grows was not found; the states of "
-      "touching faces change with it.");
+  if (!search.ended()) {
+    throw ContactError(
+        "the load factor at which the next tip grows was not found; the states of "
+        "touching faces change with it.");
+  }
+  found.grows = search.grows();
+  found.energy = stop->energy();
+  return found;
 }
 
 }  // namespace
