@@ -42,8 +42,8 @@ void ContactSolves::build_stiffness(double weak) {
 }
 
 void ContactSolves::turn_springs(double weak) {
-  constexpr int worth_a_build = 30;  // iterations that take as long
-  constexpr std::size_t few = 4;     // patches; each may cost some iterations in every solve
+  constexpr int worth_a_build = 15;  // iterations that take as long
+  constexpr std::size_t few = 2;     // patches; each may cost some iterations in every solve
   const bool one_factor = model_.hierarchy().count() == 1;
   if (one_factor && lost_ < worth_a_build && model_.turned_patches() <= few) {
     model_.turn_springs(weak);
