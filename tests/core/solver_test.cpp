@@ -253,6 +253,54 @@ TEST(SolverParallel, StopsWhereRoundingDoes) {
   EXPECT_FALSE(again.converged || again.rounded) << "stopped by the limit of iterations";
 }
 
+/// Cells whose forces cannot be told more exactly than to `noise`.
+class NoisyCells final : public CellSystem {
+ public:
+  NoisyCells(const CellSystem& cells, double noise) : cells_(cells), noise_(noise) {}
+  LocalId owned() const override { return cells_.owned(); }
+  LocalId count() const override { return cells_.count(); }
+  Communicator& communicator() const override { return cells_.communicator(); }
+  void apply(std::span<const double> x, std::span<double> forces) const override {
+    cells_.apply(x, forces);
+  }
+  void set_residual(std::span<const double> forces, std::span<const double> x,
+                    std::span<double> residual) const override {
+    cells_.set_residual(forces, x, residual);
+    for (std::size_t k = 0; k < std::size_t(owned()); ++k)
+      residual[k] += engine_() & 1U ? noise_ : -noise_;
+    cells_.clear_held(residual);
+  }
+  void sweep(SweepDirection direction, double omega, std::span<double> forces,
+             std::span<double> moves) const override {
+    cells_.sweep(direction, omega, forces, moves);
+  }
+  void sweep_all(double omega, std::span<double> forces, std::span<double> moves) const override {
+    cells_.sweep_all(omega, forces, moves);
+  }
+  void return_forces(std::span<double> forces) const override { cells_.return_forces(forces); }
+  void clear_held(std::span<double> values) const override { cells_.clear_held(values); }
+
+ private:
+  const CellSystem& cells_;
+  double noise_;
+  mutable std::minstd_rand engine_;
+};
+
+/// Rounding may be more than an estimate of it says: then the residual no longer falls.
+TEST(SolverParallel, StopsWhereNothingMakesItMoreExact) {
+  const Loaded plate(cracked_plate());
+  for (const double noise : {1e-12, 1e-3}) {
+    const NoisyCells cells(plate.cells(), noise * plate.scale);
+    Vector u = plate.zeros();
+    const auto report = make_krylov({1e-12, 1.0, 0})->solve(cells, plate.forces, u, plate.scale);
+    const bool small = noise < 1e-6;
+    EXPECT_EQ(report.converged, small);
+    EXPECT_EQ(report.rounded, small) << "a part of a thousand is no rounding";
+    EXPECT_GT(report.residual, 1e-12);
+    EXPECT_LT(report.residual, 100 * noise);
+  }
+}
+
 TEST(SolverParallel, EndsWhereTheResidualHasFallenFarEnough) {
   const Loaded plate(cracked_plate());
   const auto solver = make_krylov({1e-9, 1.0, 0});
