@@ -35,7 +35,7 @@ void CriticalFactor::end_at(double factor, bool grows) {
 
 void CriticalFactor::tell(double index) {
   const Trial now{next_, index};
-  ++tried_;
+  if (++tried_ == 1) first_ = now;
   if (last_trial_) return end(grows_);
   if (std::abs(index - 1.0) < exact) return end(true);
   if (tried_ == 1 && !(index > 0.0)) return end(false);
@@ -51,9 +51,7 @@ void CriticalFactor::tell(double index) {
     const bool enough = !virgin_ && now.factor >= highest_;
     enough ? end_at(start_, false) : void(next_ = higher(now));
   } else {
-    const double slope = (index - before_.index) / (now.factor - before_.factor);
-    const bool stays = !virgin_ && tried_ > 1 && slope < held * index / now.factor;
-    stays ? end_at(start_, true) : void(next_ = lower(now));
+    holds(now) ? end_at(start_, true) : void(next_ = lower(now));
   }
   before_ = now;
 }
@@ -69,9 +67,16 @@ double CriticalFactor::higher(const Trial& now) const {
   return now.factor + std::min(std::max(2 * step, 0.02 * now.factor), longest);
 }
 
+bool CriticalFactor::holds(const Trial& now) const {
+  if (virgin_ || tried_ == 1 || above_proportional(now)) return false;
+  const Trial& from = above_proportional(before_) ? first_ : before_;
+  return (now.index - from.index) / (now.factor - from.factor) < held * now.index / now.factor;
+}
+
 double CriticalFactor::lower(const Trial& now) const {
   const double slope = (now.index - before_.index) / (now.factor - before_.factor);
-  const double step = slope > 0.0 ? (now.index - 1.0) / slope : now.factor;
+  double step = slope > 0.0 ? (now.index - 1.0) / slope : now.factor;
+  if (above_proportional(now)) step = now.factor - proportional();
   const double longest = virgin_ ? 0.9 * now.factor : std::min(0.9 * now.factor, down * start_);
   return now.factor - std::clamp(step, 1e-9 * now.factor, longest);
 }

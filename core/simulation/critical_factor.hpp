@@ -45,6 +45,11 @@ class CriticalFactor {
   };
   double higher(const Trial& now) const;
   double lower(const Trial& now) const;
+  /// The load at which the first trial's index, falling with it, would be 1.
+  double proportional() const { return first_.factor / first_.index; }
+  bool above_proportional(const Trial& t) const { return t.factor > (1 + 1e-9) * proportional(); }
+  /// Friction holds the faces: going down this far has not made the index fall.
+  bool holds(const Trial& now) const;
   double between(const Trial& now);
   /// One more trial, there, whatever it shows.
   void end_at(double factor, bool grows);
@@ -54,7 +59,7 @@ class CriticalFactor {
   double highest_;  ///< to try
   bool virgin_;     ///< nothing has grown yet
   double next_;
-  Trial before_;  ///< no load, no index, to begin with
+  Trial first_, before_;  ///< no load, no index, to begin with
   std::optional<Trial> short_of_, beyond_;
   int tried_ = 0;
   bool halved_ = true;  ///< no secant since two trials lay on both sides

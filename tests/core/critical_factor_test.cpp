@@ -76,6 +76,13 @@ TEST(CriticalFactor, SnapsBackWhereFacesSlideBack) {
   EXPECT_NEAR(f.factor, 20.0 / 3, 1e-5);
 }
 
+/// What a quarter less load does not show, the whole way down does.
+TEST(CriticalFactor, SnapsBackPastFacesThatHoldAtFirst) {
+  const Found f = found(10.0, [](double s) { return s > 6.5 ? 1.74 + 0.06 * (10 - s) : 0.16 * s; });
+  EXPECT_TRUE(f.grows);
+  EXPECT_NEAR(f.factor, 6.25, 1e-5);
+}
+
 TEST(CriticalFactor, GrowsUnderTheLoadThatIsThereWhereFrictionHolds) {
   for (const double slope : {0.0, 0.02, -0.03}) {
     const Found f = found(10.0, [=](double s) { return 1.3 + slope * (s - 10); });
