@@ -40,6 +40,8 @@ class Body:
         self.scale, self.unit = length_unit((self.high - self.low).max())
         self.points = points * self.scale
         self.moves = fields["displacement"][:, :2] * self.scale
+        # splinters that nothing holds may be anywhere: they are drawn where they were
+        self.moves[~ordinary(np.linalg.norm(self.moves - self.moves.mean(axis=0), axis=1))] = 0.0
         self.low, self.high = self.low * self.scale, self.high * self.scale
         self.size = (self.high - self.low).max()
         self.corners = fields["connectivity"]
@@ -49,7 +51,8 @@ class Body:
         self.cut = fields["kind"] != 0
         self.lines = cracks["Points"][:, :2].reshape(-1, 2, 2) * self.scale if cracks else np.empty((0, 2, 2))
         self.ages = cracks["age"] if cracks else np.empty(0, int)
-        self.opening = np.abs(cracks["opening"]).max(initial=0.0) * self.scale if cracks else 0.0
+        openings = np.abs(cracks["opening"]) * self.scale if cracks else np.empty(0)
+        self.opening = openings[ordinary(openings)].max(initial=0.0)
 
     def groups(self):
         """(polygon numbers, their corners) for all polygons of the same number of corners."""
@@ -57,6 +60,12 @@ class Body:
         for count in np.unique(self.counts):
             chosen = np.flatnonzero(self.counts == count)
             yield chosen, self.corners[starts[chosen][:, None] + np.arange(count)]
+
+
+def ordinary(values):
+    """Which values are not far beyond nearly all of them."""
+    top = np.percentile(values, 98) if len(values) else 0.0
+    return values <= 5 * top if top > 0 else np.ones(len(values), bool)
 
 
 def length_unit(size):
