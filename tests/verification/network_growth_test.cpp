@@ -29,10 +29,7 @@ bool is_sound(const CaseSpec& spec) {
 /// Which way the top moves, and what faces do that touch.
 enum class Loading { tension, tension_with_contact, compression };
 
-/// Up to 5 or up to 10 elements long: the latter cut the plate into rubble.
-enum class Cracks { short_ones, long_ones };
-
-using Network = std::tuple<unsigned, Loading, Cracks>;  ///< seed
+using Network = std::tuple<unsigned, Loading>;  ///< seed
 
 /// Stiff faces; every third seed without friction.
 ContactSpec contact_of_seed(unsigned seed, double h) {
@@ -41,9 +38,9 @@ ContactSpec contact_of_seed(unsigned seed, double h) {
   return {ContactLaw::coulomb, stiffness, 0.1 * stiffness, 0.1 * (seed % 7), 0, 0, 0};
 }
 
-/// A plate with up to `count` cracks of 2 elements and more; those that would cut off a part are
-/// left out.
-CaseSpec random_network(unsigned seed, int cells, int count, Loading loading, Cracks cracks) {
+/// A plate with up to `count` cracks of 2 to 10 elements; those that would cut off a
+/// part are left out.
+CaseSpec random_network(unsigned seed, int cells, int count, Loading loading) {
   CaseSpec spec = plate({0, 0}, {1, 1}, cells, cells);
   spec.solver.tolerance = loading == Loading::tension ? 1e-11 : 1e-9;
   BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
@@ -52,8 +49,7 @@ CaseSpec random_network(unsigned seed, int cells, int count, Loading loading, Cr
   pin.displacement[0] = proportional_load(0);
   spec.boundaries = {top, bottom, pin};
   const double h = 1.0 / cells;
-  const double longest = cracks == Cracks::short_ones ? 5 * h : 10 * h;
-  CrackFieldSpec field{count, {2 * h, longest}, {0, 180}, {Vec2(0, 0), Vec2(1, 1)}, seed};
+  CrackFieldSpec field{count, {2 * h, 10 * h}, {0, 180}, {Vec2(0, 0), Vec2(1, 1)}, seed};
   for (const auto& ends : random_cracks(field)) {
     add_crack(spec, {ends[0], ends[1]});
     if (loading != Loading::tension) spec.cracks.back().contact = contact_of_seed(seed, h);
@@ -65,22 +61,21 @@ CaseSpec random_network(unsigned seed, int cells, int count, Loading loading, Cr
 }
 
 /// Seeds differ in grid, number of cracks, step length, kind of loading and number of scales.
-CaseSpec network_of_seed(unsigned seed, Loading loading, Cracks cracks = Cracks::long_ones) {
+CaseSpec network_of_seed(unsigned seed, Loading loading) {
   std::mt19937 engine(seed);
   // small grids where faces touch, since every cycle takes many solves
   const bool touching = loading != Loading::tension;
   const int cells = touching ? 20 + int(engine() % 11) : 30 + int(engine() % 21);
   const int count = 5 + int(engine() % 56);
-  CaseSpec spec = random_network(seed, cells, count, loading, cracks);
+  CaseSpec spec = random_network(seed, cells, count, loading);
   spec.loading.critical = seed % 2 == 0;
-  spec.loading.max_events = cracks == Cracks::short_ones ? 60 : 400;
+  spec.loading.max_events = 400;
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
   if ((seed % 5 == 0) == touching) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
   spec.load_factors.clear();
-  const int steps = cracks == Cracks::short_ones ? 8 : 20;  // the first growth is at about 0.3
-  for (int k = 1; k <= steps; ++k) spec.load_factors.push_back(0.3 * k);
+  for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;
 }
 
@@ -95,8 +90,8 @@ void expect_finite(const Summary& s) {
 }
 
 void expect_to_end_well(const Network& network) {
-  const auto [seed, loading, cracks] = network;
-  const CaseSpec spec = network_of_seed(seed, loading, cracks);
+  const auto [seed, loading] = network;
+  const CaseSpec spec = network_of_seed(seed, loading);
   Summary s;
   ASSERT_NO_THROW(s = run_simulation(spec, "test", world(), world_partitioner(), {}));
   std::cout << spec.cracks.size() << " cracks, " << spec.domain.cells[0] << " x "
@@ -146,41 +141,33 @@ TEST(JammedBlocks, SettleInFewTurns) {
 /// rounding: conjugate gradients found a direction without stiffness, and gave up.
 TEST(SlowSmallTipZones, HoldWhatStrainsNothing) {
   for (const auto& [seed, loading] :
-       {std::pair{55U, Loading::tension_with_contact}, std::pair{35U, Loading::compression}}) {
+       {Network{55, Loading::tension_with_contact}, Network{35, Loading::compression}}) {
     Model model(network_of_seed(seed, loading), world(), world_partitioner());
     model.build_stiffness();
     EXPECT_NO_THROW(find_equilibrium(model, *make_solver(model), 0.3)) << "seed " << seed;
   }
 }
 
-constexpr auto short_ones = Cracks::short_ones, long_ones = Cracks::long_ones;
-constexpr auto tension = Loading::tension, tension_with_contact = Loading::tension_with_contact,
-               compression = Loading::compression;
-
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
 TEST_P(NetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth, ::testing::Values(Network{1, tension, long_ones}));
+INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth,
+                         ::testing::Combine(::testing::Values(1U),
+                                            ::testing::Values(Loading::tension)));
+
 INSTANTIATE_TEST_SUITE_P(Touching, NetworkGrowth,
-                         ::testing::Values(Network{1, tension_with_contact, long_ones},
-                                           Network{1, compression, long_ones}));
+                         ::testing::Combine(::testing::Values(1U),
+                                            ::testing::Values(Loading::tension_with_contact,
+                                                              Loading::compression)));
 
 class SlowNetworkGrowth : public NetworkGrowth {};
 TEST_P(SlowNetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Tension, SlowNetworkGrowth,
-                         ::testing::Combine(::testing::Range(2U, 43U), ::testing::Values(tension),
-                                            ::testing::Values(long_ones)));
+                         ::testing::Combine(::testing::Range(2U, 43U),
+                                            ::testing::Values(Loading::tension)));
 INSTANTIATE_TEST_SUITE_P(Contact, SlowNetworkGrowth,
                          ::testing::Combine(::testing::Range(2U, 101U),
-                                            ::testing::Values(tension_with_contact, compression),
-                                            ::testing::Values(short_ones)));
-
-/// Minutes to hours each; not all of them end.
-class DenseNetworkGrowth : public NetworkGrowth {};
-TEST_P(DenseNetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Contact, DenseNetworkGrowth,
-                         ::testing::Combine(::testing::Range(2U, 101U),
-                                            ::testing::Values(tension_with_contact, compression),
-                                            ::testing::Values(long_ones)));
+                                            ::testing::Values(Loading::tension_with_contact,
+                                                              Loading::compression)));
 
 /// However quietly the faces come to rest: what is taken for equilibrium is one of forces, too.
 TEST(ContactOfNetworks, WhatIsTakenIsExact) {
