@@ -46,30 +46,12 @@ CriticalState scaled_to_critical(Model& model, const EquilibriumSolver& solver,
 /// The place from which the search tries loads: what is behind it has become history.
 class Stop {
  public:
-  Stop(Model& model, const EquilibriumSolver& solver, Recorder& recorder,
-       const CriticalStart& start)
+  Stop(Model& model, const CriticalStart& start)
       : model_(model),
-        solver_(solver),
-        recorder_(recorder),
         start_factor_(start.last_factor),
         factor_(start.last_factor),
         energy_(start.energy),
-        contact_(model.contact_memory()),
-        state_(model.state()) {}
-
-  /// Equilibrium at a load factor; where faces do not settle, by way of a stop halfway.
-  Equilibrium solve(double factor, int halvings = 2) {
-    try {
-      return solve_recorded(model_, solver_, factor, recorder_);
-    } catch (const ContactError&) {
-      if (halvings == 0 || factor_ == 0.0 || factor == factor_) throw;
-    }
-    go_back();
-    model_.state() = state_;
-    const double middle = 0.5 * (factor_ + factor);
-    move_to(solve(middle, halvings - 1), middle);
-    return solve(factor, halvings - 1);
-  }
+        contact_(model.contact_memory()) {}
 
   /// The model is at an equilibrium that the body passes through: from here on.
   void move_to(const Equilibrium& here, double factor) {
@@ -79,7 +61,6 @@ class Stop {
                    energy_);
     factor_ = factor;
     contact_ = model_.contact_memory();
-    state_ = model_.state();
   }
 
   /// Faces are what they were here; displacements stay, as a start.
@@ -91,20 +72,17 @@ class Stop {
 
  private:
   Model& model_;
-  const EquilibriumSolver& solver_;
-  Recorder& recorder_;
   double start_factor_;
-  double factor_;  ///< 0: before any growth, when nothing is known of the way
+  double factor_;
   EnergyLedger energy_;
   Model::ContactMemory contact_;
-  std::vector<double> state_;
 };
 
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, const CriticalStart& start,
                                    Recorder& recorder) {
   constexpr int most = 100;
-  const Stop first(model, solver, recorder, start);
+  const Stop first(model, start);
   std::optional<Stop> stop(first);
   CriticalFactor search(start.last_factor, start.first_factor);
   CriticalState found;
@@ -118,7 +96,7 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
     }
     if (round > 0) stop->go_back();
     found.factor = next;
-    found.equilibrium = stop->solve(next);
+    found.equilibrium = solve_recorded(model, solver, next, recorder);
     found.tips = criterion.assess(model, next);
     search.tell(greatest_index(found.tips));
   }
