@@ -87,7 +87,8 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
                                  own_product, own_u, own_residual);
       report.residual = std::sqrt(system.communicator().sum(sum)) / scale;
     }
-    report.converged = report.residual <= enough;
+    const bool ended = report.residual <= enough;
+    report.converged = ended;
     if (report.converged && accuracy.of_start > 0.0) break;
     set_residual();
     report.converged = report.residual <= enough;
@@ -95,8 +96,8 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     // a force is a sum of some tens of products, each of them rounded too
     double least = 8 * rounding_of(system, u, direction, product) / scale;
     // the recurrence has ended twice, and the true residual is where it was: that is rounding, too
-    if (report.residual > 0.5 * before) least = report.residual;
-    before = report.residual;
+    if (ended && report.residual > 0.5 * before) least = report.residual;
+    before = ended ? report.residual : std::numeric_limits<double>::infinity();
     report.converged = report.rounded =
         report.residual <= std::min(least, coarsest_rounding * enough / options.tolerance);
   }
