@@ -75,15 +75,28 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   const auto with_rows = cells_with_rows(mesh, elements.special(), held_, own_rows);
   regular_ = RegularRuns(mesh, runs_without(mesh.own_runs(), with_rows), elements.plain());
   build_rows(mesh, unknowns, elements, with_rows, carried);
-  if (!springs.empty()) without_springs_ = rows_.value;
-  add_faces(mesh, elements);
-  hold_idle_functions(mesh, unknowns);
-  if (!springs.empty()) add_springs(springs);
+  add_all_springs(unknowns, mesh, elements, springs);
   if (sweeps == Sweeps::one_after_the_other) {
     build_groups(mesh, unknowns, held, with_rows);
     order_items();
     colour_ranks(mesh);
   }
+}
+
+void CellStiffness::turn_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+                                 ElementStiffness& elements, const std::vector<double>& springs) {
+  if (!without_springs_.empty()) rows_.value = without_springs_;
+  springs_.clear();
+  add_all_springs(unknowns, mesh, elements, springs);
+}
+
+void CellStiffness::add_all_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+                                    ElementStiffness& elements,
+                                    const std::vector<double>& springs) {
+  if (!springs.empty()) without_springs_ = rows_.value;
+  add_faces(mesh, elements);
+  hold_idle_functions(mesh, unknowns);
+  if (!springs.empty()) add_springs(springs);
 }
 
 void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns,
@@ -117,16 +130,21 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
     }
     for (PartStiffness& own_part : elements.parts(element))
       sum.add(own_part.unknowns, std::move(own_part.matrix));
-    for (const PartStiffness& face : elements.faces(element)) sum.make_places(face.unknowns);
+    for (const PartStiffness* face : elements.faces(element)) sum.make_places(face->unknowns);
   }
   rows_ = kept.with(sum.rows(wanted, owned_));
 }
 
 void CellStiffness::add_faces(const LocalMesh& mesh, ElementStiffness& elements) {
+  std::size_t next = 0;
   for (const GlobalId id : elements.special()) {
-    for (const PartStiffness& face : elements.faces(mesh.grid().element_index(id))) {
+    for (const PartStiffness* face : elements.faces(mesh.grid().element_index(id))) {
       if (without_springs_.empty()) without_springs_ = rows_.value;
-      rows_.add(face.unknowns, face.matrix, owned_);
+      if (next == face_places_.size()) rows_.append_places(face->unknowns, owned_, face_places_);
+      for (const double value : face->matrix.reshaped()) {
+        const std::size_t place = face_places_[next++];
+        if (place != StiffnessRows::nowhere) rows_.value[place] += value;
+      }
     }
   }
 }
@@ -155,16 +173,22 @@ void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknown
   }
 }
 
-void CellStiffness::hold_idle_functions(const std::vector<LocalId>& block) {
+void CellStiffness::hold_idle_functions(std::vector<LocalId> block) {
+  std::sort(block.begin(), block.end());
   constexpr double idle = 1e-12, well_apart = 1e-9;
   const auto size = Eigen::Index(block.size());
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
   const auto for_entries = [&](auto&& visit) {
     for (Eigen::Index a = 0; a < size; ++a) {
       const auto row = std::size_t(rows_.find(block[std::size_t(a)]));
-      for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k) {
-        const auto b = std::find(block.begin(), block.end(), rows_.column[k]) - block.begin();
-        if (b < size) visit(a, b, rows_.value[k]);
+      const auto first = rows_.column.begin() + std::ptrdiff_t(rows_.start[row]);
+      const auto end = rows_.column.begin() + std::ptrdiff_t(rows_.start[row + 1]);
+      auto at = std::lower_bound(first, end, block.front());
+      for (Eigen::Index b = 0; b < size; ++b) {
+        while (at != end && *at < block[std::size_t(b)]) ++at;
+        if (at == end) break;
+        if (*at == block[std::size_t(b)])
+          visit(a, b, rows_.value[std::size_t(at - rows_.column.begin())]);
       }
     }
   };

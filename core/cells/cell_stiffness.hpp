@@ -33,6 +33,11 @@ class CellStiffness final : public CellSystem {
                 const std::vector<GlobalId>& own_rows, Sweeps sweeps, Communicator& communicator,
                 const CarriedCells* carried = nullptr);
 
+  /// Springs of faces are what the elements say now, and weak springs these; all else stays. Not
+  /// for cells that sweep. Collective where the constructor is.
+  void turn_springs(const CellUnknowns& unknowns, const LocalMesh& mesh, ElementStiffness& elements,
+                    const std::vector<double>& springs);
+
   LocalId owned() const override { return owned_; }
   LocalId count() const override { return count_; }
   Communicator& communicator() const override { return communicator_; }
@@ -85,12 +90,14 @@ class CellStiffness final : public CellSystem {
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<LocalId>& with_rows, const CarriedCells* carried);
-  /// Springs of faces, on top of the rows.
+  /// Springs of faces and weak springs, on top of the rows.
+  void add_all_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+                       ElementStiffness& elements, const std::vector<double>& springs);
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
   /// only, are held at 0: of one cell, and of all cells of a zone of one element.
   void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);
-  void hold_idle_functions(const std::vector<LocalId>& block);
+  void hold_idle_functions(std::vector<LocalId> block);
   void add_springs(const std::vector<double>& springs);
   void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
                     const std::vector<char>& held, const std::vector<LocalId>& with_rows);
@@ -108,7 +115,8 @@ class CellStiffness final : public CellSystem {
   LocalId count_ = 0;
   RegularRuns regular_;
   StiffnessRows rows_;
-  std::vector<double> without_springs_;  ///< empty when there are none
+  std::vector<double> without_springs_;   ///< empty when there are none
+  std::vector<std::size_t> face_places_;  ///< of the values of all faces, one after the other
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;
   std::vector<LocalId> held_;

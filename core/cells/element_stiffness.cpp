@@ -17,7 +17,7 @@ FinestElements::FinestElements(const BasisContext& context, const ElasticMatrix&
       plain_(plain_stiffness(context.mesh.grid().element_size(), elastic)),
       special_(elements_near_cracks(context.mesh, context.cuts, context.unknowns)) {}
 
-const FinestElements::Element& FinestElements::element(GridIndex e) {
+FinestElements::Element& FinestElements::element(GridIndex e) {
   const auto [it, is_new] = known_.try_emplace(context_.mesh.grid().element(e));
   Element& element = it->second;
   if (!is_new) return element;
@@ -37,13 +37,13 @@ std::vector<PartStiffness> FinestElements::parts(GridIndex e) {
   return parts;
 }
 
-std::vector<PartStiffness> FinestElements::faces(GridIndex e) {
-  std::vector<PartStiffness> faces;
+std::vector<const PartStiffness*> FinestElements::faces(GridIndex e) {
+  std::vector<const PartStiffness*> faces;
   if (!springs_ || !context_.cuts.touched(e)) return faces;
-  const Element& known = element(e);
+  Element& known = element(e);
   for (std::size_t k = 0; k < known.faces.size(); ++k) {
-    PartStiffness face = known.faces[k].stiffness(springs_->on(e, k));
-    if (!face.unknowns.empty()) faces.push_back(std::move(face));
+    const PartStiffness& face = known.faces[k].stiffness(springs_->on(e, k));
+    if (!face.unknowns.empty()) faces.push_back(&face);
   }
   return faces;
 }

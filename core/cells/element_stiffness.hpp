@@ -24,8 +24,8 @@ class ElementStiffness {
   /// Of a special element, one matrix for each part.
   virtual std::vector<PartStiffness> parts(GridIndex element) = 0;
   /// Springs of a special element, one matrix for each face that it counts as its own. They may
-  /// turn while cracks stay as they are; the unknowns are the same then.
-  virtual std::vector<PartStiffness> faces(GridIndex element) = 0;
+  /// turn while cracks stay as they are; the unknowns are the same then. Good until the next call.
+  virtual std::vector<const PartStiffness*> faces(GridIndex element) = 0;
 };
 
 /// The elements of the grid itself, as long as the cracks stay as they are; springs may change.
@@ -37,15 +37,14 @@ class FinestElements final : public ElementStiffness {
   const PlainStiffness& plain() const override { return plain_; }
   const std::vector<GlobalId>& special() const override { return special_; }
   std::vector<PartStiffness> parts(GridIndex element) override;
-  std::vector<PartStiffness> faces(GridIndex element) override;
+  std::vector<const PartStiffness*> faces(GridIndex element) override;
 
  private:
-  /// What does not depend on springs.
   struct Element {
     std::vector<StiffnessCache::Found> parts;
     std::vector<FaceSpots> faces;
   };
-  const Element& element(GridIndex e);
+  Element& element(GridIndex e);
 
   std::unordered_map<GlobalId, Element> known_;
   BasisContext context_;

@@ -82,22 +82,29 @@ Eigen::Matrix2d traction_of(const Vec2& g, const Vec2& n, const ElasticMatrix& d
   return across * d * strain;
 }
 
-void add_springs(const FaceSpot& spot, const FaceGeometry& face, const FaceStretch& springs,
-                 Eigen::Ref<Eigen::MatrixXd> matrix) {
+SpotForms::SpotForms(const FaceSpot& spot, const FaceGeometry& face)
+    : face_(face), weight_(spot.weight), compliance_(spot.compliance) {
   const auto size = Eigen::Index(2 * spot.functions.size());
-  Eigen::VectorXd jump(size), stress(size);
-  const std::pair<double, const Vec2*> directions[] = {{springs.normal, &face.normal},
-                                                       {springs.tangential, &face.tangent}};
-  for (const auto& [spring, direction] : directions) {
-    const SpringTerms terms(face, spot.compliance, spring);
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const Vec2& axis = d == 0 ? face.normal : face.tangent;
+    auto& [jump, stress] = directions_[d];
+    jump.resize(size);
+    stress.resize(size);
     for (std::size_t k = 0; k < spot.functions.size(); ++k) {
       const FaceFunction& f = spot.functions[k];
-      jump.segment<2>(Eigen::Index(2 * k)) = f.jump.transpose() * *direction;
-      stress.segment<2>(Eigen::Index(2 * k)) = f.traction.transpose() * *direction;
+      jump.segment<2>(Eigen::Index(2 * k)) = f.jump.transpose() * axis;
+      stress.segment<2>(Eigen::Index(2 * k)) = f.traction.transpose() * axis;
     }
-    matrix += spot.weight * terms.jump * jump * jump.transpose();
+  }
+}
+
+void SpotForms::add_springs(const FaceStretch& springs, Eigen::Ref<Eigen::MatrixXd> matrix) const {
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    const auto& [jump, stress] = directions_[d];
+    const SpringTerms terms(face_, compliance_, d == 0 ? springs.normal : springs.tangential);
+    matrix += (weight_ * terms.jump) * jump * jump.transpose();
     if (terms.stress == 0.0 && terms.mixed == 0.0) continue;
-    const Eigen::VectorXd mix = spot.weight * (terms.mixed * jump - 0.5 * terms.stress * stress);
+    const Eigen::VectorXd mix = weight_ * (terms.mixed * jump - 0.5 * terms.stress * stress);
     matrix += mix * stress.transpose() + stress * mix.transpose();
   }
 }
@@ -200,31 +207,33 @@ void FaceBasis::add_functions(const FacePoint& point, double share, FaceSpot& sp
 }
 
 FaceSpots::FaceSpots(const BasisContext& context, const CrackFace& face,
-                     const ElasticMatrix& elastic, const std::vector<FaceStretch>& stretches)
-    : geometry_(context.cuts, face, elastic) {
+                     const ElasticMatrix& elastic, const std::vector<FaceStretch>& stretches) {
   const FaceBasis basis(context, face, elastic);
-  for (const FaceStretch& s : stretches) spots_.push_back(basis.spot(s.from, s.to));
-  if (geometry_.uses_stress || spots_.empty()) return;
-  // functions of cells off the grid line that the face lies on do not show on it
-  for (std::size_t f = spots_.front().functions.size(); f-- > 0;) {
+  std::vector<FaceSpot> spots;
+  for (const FaceStretch& s : stretches) spots.push_back(basis.spot(s.from, s.to));
+  if (spots.empty()) return;
+  // functions of cells off the grid line that a face lies on do not show on it
+  for (std::size_t f = spots.front().functions.size(); f-- > 0;) {
     const auto at = [f](FaceSpot& s) { return s.functions.begin() + std::ptrdiff_t(f); };
-    const bool seen = std::any_of(spots_.begin(), spots_.end(),
-                                  [&](FaceSpot& s) { return !at(s)->jump.isZero(0.0); });
-    if (seen) continue;
-    for (FaceSpot& s : spots_) s.functions.erase(at(s));
+    const bool shows = basis.geometry().uses_stress ||
+                       std::any_of(spots.begin(), spots.end(),
+                                   [&](FaceSpot& s) { return !at(s)->jump.isZero(0.0); });
+    if (shows) continue;
+    for (FaceSpot& s : spots) s.functions.erase(at(s));
   }
+  for (const FaceFunction& f : spots.front().functions)
+    stiffness_.unknowns.insert(stiffness_.unknowns.end(), {f.unknown, f.unknown + 1});
+  for (const FaceSpot& spot : spots) forms_.emplace_back(spot, basis.geometry());
 }
 
-PartStiffness FaceSpots::stiffness(const std::vector<FaceStretch>& springs) const {
-  PartStiffness stiffness;
-  if (spots_.empty()) return stiffness;
-  for (const FaceFunction& f : spots_.front().functions)
-    stiffness.unknowns.insert(stiffness.unknowns.end(), {f.unknown, f.unknown + 1});
-  const auto size = Eigen::Index(stiffness.unknowns.size());
-  stiffness.matrix = Eigen::MatrixXd::Zero(size, size);
-  for (std::size_t k = 0; k < spots_.size(); ++k)
-    add_springs(spots_[k], geometry_, springs[k], stiffness.matrix);
-  return stiffness;
+const PartStiffness& FaceSpots::stiffness(const std::vector<FaceStretch>& springs) {
+  if (forms_.empty() || springs == springs_) return stiffness_;
+  const auto size = Eigen::Index(stiffness_.unknowns.size());
+  stiffness_.matrix.setZero(size, size);
+  for (std::size_t k = 0; k < forms_.size(); ++k)
+    forms_[k].add_springs(springs[k], stiffness_.matrix);
+  springs_ = springs;
+  return stiffness_;
 }
 
 }  // namespace cdca

@@ -93,9 +93,21 @@ struct SpringTerms {
 /// (s n) of a function with the given gradient, moved in x and in y.
 Eigen::Matrix2d traction_of(const Vec2& gradient, const Vec2& normal, const ElasticMatrix& elastic);
 
-/// Adds the springs at a spot to a matrix over all of its functions, x and y of each.
-void add_springs(const FaceSpot& spot, const FaceGeometry& face, const FaceStretch& springs,
-                 Eigen::Ref<Eigen::MatrixXd> matrix);
+/// The springs at a spot as matrices over all of its functions, x and y of each.
+class SpotForms {
+ public:
+  SpotForms(const FaceSpot& spot, const FaceGeometry& face);
+  void add_springs(const FaceStretch& springs, Eigen::Ref<Eigen::MatrixXd> matrix) const;
+
+ private:
+  /// What 1 m of every unknown does to the jump and to the mean stress.
+  struct Direction {
+    Eigen::VectorXd jump, stress;
+  };
+  FaceGeometry face_;
+  double weight_, compliance_;
+  std::array<Direction, 2> directions_;  ///< across the face, and along it
+};
 
 /// A place on a face: grid coordinates and length element, m.
 struct FacePoint {
@@ -140,12 +152,14 @@ class FaceSpots {
  public:
   FaceSpots(const BasisContext& context, const CrackFace& face, const ElasticMatrix& elastic,
             const std::vector<FaceStretch>& stretches);
-  /// Stiffness of springs on the same stretches, over all unknowns of both sides.
-  PartStiffness stiffness(const std::vector<FaceStretch>& springs) const;
+  /// Stiffness of springs on the same stretches, over all unknowns of both sides. Made anew only
+  /// where it is not that of the last time.
+  const PartStiffness& stiffness(const std::vector<FaceStretch>& springs);
 
  private:
-  FaceGeometry geometry_;
-  std::vector<FaceSpot> spots_;
+  std::vector<SpotForms> forms_;
+  std::vector<FaceStretch> springs_;  ///< that the stiffness counts
+  PartStiffness stiffness_;
 };
 
 }  // namespace cdca

@@ -32,12 +32,14 @@ std::ptrdiff_t StiffnessRows::find(LocalId u) const {
   return it != unknown.end() && *it == u ? it - unknown.begin() : -1;
 }
 
-void StiffnessRows::add(const std::vector<LocalId>& unknowns, const Eigen::MatrixXd& matrix,
-                        LocalId owned) {
+void StiffnessRows::append_places(const std::vector<LocalId>& unknowns, LocalId owned,
+                                  std::vector<std::size_t>& places) const {
   std::vector<std::size_t> order(unknowns.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return unknowns[a] < unknowns[b]; });
+  const std::size_t first = places.size();
+  places.resize(first + unknowns.size() * unknowns.size(), nowhere);
   for (std::size_t a = 0; a < unknowns.size(); ++a) {
     const std::ptrdiff_t row = find(unknowns[a]);
     if (row < 0) continue;
@@ -45,7 +47,7 @@ void StiffnessRows::add(const std::vector<LocalId>& unknowns, const Eigen::Matri
     for (const std::size_t b : order) {
       if (unknowns[a] >= owned && unknowns[b] >= owned) break;
       while (column[k] < unknowns[b]) ++k;
-      value[k] += matrix(Eigen::Index(a), Eigen::Index(b));
+      places[first + b * unknowns.size() + a] = k;
     }
   }
 }

@@ -23,8 +23,11 @@ struct StiffnessRows {
   double times(std::size_t row, std::span<const double> x, LocalId end) const;
   /// Row number of an unknown, or -1.
   std::ptrdiff_t find(LocalId unknown) const;
-  /// Adds a matrix over some unknowns, whose places are there; not that of ghosts on ghosts.
-  void add(const std::vector<LocalId>& unknowns, const Eigen::MatrixXd& matrix, LocalId owned);
+  /// Appends where the values of a matrix over some unknowns go, column by column. Their places
+  /// must be there; `nowhere` for rows that are not, and for ghosts on ghosts.
+  void append_places(const std::vector<LocalId>& unknowns, LocalId owned,
+                     std::vector<std::size_t>& places) const;
+  static constexpr auto nowhere = std::size_t(-1);
 };
 
 /// Adds up rows of cells from the matrices of elements, part by part.

@@ -50,7 +50,7 @@ std::vector<Bond> finest_bonds(const ElementCuts& cuts, const ElasticMatrix& ela
         const FaceSpot spot = spot_of(bond, plain_points(face, geometry, s.from, s.to),
                                       grid.element_size(), geometry, elastic);
         Eigen::MatrixXd at_spot = Eigen::MatrixXd::Zero(16, 16);
-        if (spot.weight > 0.0) add_springs(spot, geometry, s, at_spot);
+        if (spot.weight > 0.0) SpotForms(spot, geometry).add_springs(s, at_spot);
         bond.stiffness += at_spot;
       }
       bonds.push_back(bond);

@@ -245,12 +245,14 @@ std::vector<PartStiffness> CoarseElements::parts(GridIndex element) {
   return found;
 }
 
-std::vector<PartStiffness> CoarseElements::faces(GridIndex element) {
-  std::vector<PartStiffness> found;
+std::vector<const PartStiffness*> CoarseElements::faces(GridIndex element) {
+  faces_.clear();
   if (const auto at = bonds_at_.find(mesh_.grid().element(element)); at != bonds_at_.end()) {
     for (const std::size_t b : at->second)
-      found.push_back(held_entries(parts_.bonds()[b], mesh_, unknowns_));
+      faces_.push_back(held_entries(parts_.bonds()[b], mesh_, unknowns_));
   }
+  std::vector<const PartStiffness*> found;
+  for (const PartStiffness& face : faces_) found.push_back(&face);
   return found;
 }
 

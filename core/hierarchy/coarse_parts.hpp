@@ -105,7 +105,7 @@ class CoarseElements final : public ElementStiffness {
   const PlainStiffness& plain() const override { return parts_.plain(); }
   const std::vector<GlobalId>& special() const override { return special_; }
   std::vector<PartStiffness> parts(GridIndex element) override;
-  std::vector<PartStiffness> faces(GridIndex element) override;
+  std::vector<const PartStiffness*> faces(GridIndex element) override;
 
  private:
   const LocalMesh& mesh_;
@@ -113,6 +113,7 @@ class CoarseElements final : public ElementStiffness {
   const CoarseParts& parts_;
   std::vector<GlobalId> special_;
   std::unordered_map<GlobalId, std::vector<std::size_t>> bonds_at_;  ///< by the plus element
+  std::vector<PartStiffness> faces_;  ///< of the element last asked for
 };
 
 /// Displacements of a child's corners from those of the coarse element, x and y of each; (cx, cy)

@@ -17,12 +17,20 @@ std::uint64_t place_of(const Eigen::Triplet<double>& e) {
 
 bool CoarsestFactor::compute(std::size_t size, const StiffnessEntries& entries) {
   if (!same_places(size, entries)) lay_places(size, entries);
+  return factorize([&](std::size_t k) { return entries[k].value(); });
+}
+
+bool CoarsestFactor::compute_again(std::span<const double> values) {
+  return factorize([&](std::size_t k) { return values[k]; });
+}
+
+template <class ValueOf>
+bool CoarsestFactor::factorize(const ValueOf& value_of) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
-  for (std::size_t k = 0; k < entries.size(); ++k) values[at_[k]] += entries[k].value();
-  factor_.factorize(matrix_);
-  if (factor_.info() != Eigen::Success) return false;
-  entries_now_ = factor_.matrixL().nestedExpression().nonZeros();
+  for (std::size_t k = 0; k < at_.size(); ++k) values[at_[k]] += value_of(k);
+  if (!factor_.factorize(matrix_)) return false;
+  entries_now_ = factor_.entries();
   if (entries_of_order_ == 0) entries_of_order_ = entries_now_;
   return true;
 }
@@ -30,7 +38,7 @@ bool CoarsestFactor::compute(std::size_t size, const StiffnessEntries& entries) 
 void CoarsestFactor::solve(Eigen::VectorXd& values) const {
   Eigen::VectorXd placed(values.size());
   for (Eigen::Index u = 0; u < values.size(); ++u) placed[place_[u]] = values[u];
-  placed = factor_.solve(placed).eval();
+  factor_.solve(placed);
   for (Eigen::Index u = 0; u < values.size(); ++u) values[u] = placed[place_[u]];
 }
 
@@ -57,7 +65,7 @@ void CoarsestFactor::lay_places(std::size_t size, const StiffnessEntries& entrie
     const int first = matrix_.outerIndexPtr()[column], last = matrix_.outerIndexPtr()[column + 1];
     at_.push_back(std::size_t(std::lower_bound(rows + first, rows + last, row) - rows));
   }
-  factor_.analyzePattern(matrix_);
+  factor_.lay_fronts(matrix_);
 }
 
 }  // namespace cdca

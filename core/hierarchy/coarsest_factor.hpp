@@ -3,8 +3,10 @@
 #pragma once
 
 #include "core/hierarchy/elimination_order.hpp"
+#include "core/hierarchy/front_factor.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace cdca {
 
@@ -15,12 +17,16 @@ class CoarsestFactor {
  public:
   /// Of every pair of coupled unknowns one entry counts. Returns whether there is a factor.
   bool compute(std::size_t size, const StiffnessEntries& entries);
+  /// The same entries with other values.
+  bool compute_again(std::span<const double> values);
   /// values = K^-1 values, by unknown.
   void solve(Eigen::VectorXd& values) const;
 
  private:
   bool same_places(std::size_t size, const StiffnessEntries& entries) const;
   void lay_places(std::size_t size, const StiffnessEntries& entries);
+  template <class ValueOf>
+  bool factorize(const ValueOf& value_of);
 
   Eigen::VectorXi place_;              ///< of every unknown in the factor
   Eigen::Index entries_of_order_ = 0;  ///< of the factor that the order was made for
@@ -28,7 +34,7 @@ class CoarsestFactor {
   std::vector<std::uint64_t> places_;  ///< row and column of every entry
   std::vector<std::size_t> at_;        ///< of every entry among the values of matrix_
   Eigen::SparseMatrix<double> matrix_;
-  OrderedFactor factor_;
+  FrontFactor factor_;
 };
 
 }  // namespace cdca

@@ -7,15 +7,20 @@ namespace cdca {
 
 namespace {
 
-/// The entries of all ranks, on every rank, in order of rank.
-StiffnessEntries entries_of_all(Communicator& communicator, StiffnessEntries mine) {
+/// What all ranks have, on every rank, in order of rank.
+template <class Entry>
+std::vector<Entry> of_all(Communicator& communicator, std::vector<Entry> mine) {
   if (communicator.size() == 1) return mine;
   Bytes bytes, all;
-  pack(bytes, std::span<const StiffnessEntries::value_type>(mine));
+  pack(bytes, std::span<const Entry>(mine));
   for (const Bytes& part : communicator.gather(bytes))
     all.insert(all.end(), part.begin(), part.end());
   communicator.broadcast(all);
-  return unpack<StiffnessEntries::value_type>(all);
+  return unpack<Entry>(all);
+}
+
+void require(bool factored) {
+  if (!factored) throw SolveError("the stiffness of the coarsest cells could not be factored");
 }
 
 }  // namespace
@@ -37,6 +42,7 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
   for (const LocalId u : cells.held()) number[std::size_t(u)] = -1.0;
   cells.halo().copy_state(number);
 
+  held_ = cells.held().size();
   StiffnessEntries entries;
   for (const LocalId u : cells.held()) {
     const auto place = int(first_ + std::size_t(u));
@@ -48,13 +54,19 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
     if (u >= own || number[u] < 0) continue;
     for (std::size_t k = rows.start[r]; k < rows.start[r + 1]; ++k) {
       const double column = number[std::size_t(rows.column[k])];
-      if (column >= 0 && column <= number[u])
-        entries.emplace_back(int(number[u]), int(column), rows.value[k]);
+      if (column < 0 || column > number[u]) continue;
+      entries.emplace_back(int(number[u]), int(column), rows.value[k]);
+      entries_.push_back(k);
     }
   }
-  entries = entries_of_all(communicator, std::move(entries));
-  if (!factor.compute(total_, entries))
-    throw SolveError("the stiffness of the coarsest cells could not be factored");
+  require(factor.compute(total_, of_all(communicator, std::move(entries))));
+}
+
+void CoarsestSolve::turn_springs() {
+  std::vector<double> values(held_, 1.0);
+  values.reserve(held_ + entries_.size());
+  for (const std::size_t k : entries_) values.push_back(cells_.rows().value[k]);
+  require(factor_.compute_again(of_all(cells_.communicator(), std::move(values))));
 }
 
 void CoarsestSolve::solve(std::span<const double> forces, std::span<double> moves) const {

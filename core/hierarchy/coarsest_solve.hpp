@@ -15,6 +15,8 @@ class CoarsestSolve {
   /// cells must have rows for all of its cells. factor: from the last time, brought up to date;
   /// borrowed. Collective.
   CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor);
+  /// The cells' springs have turned; all else is as it was. Collective.
+  void turn_springs();
   /// moves = K^-1 forces on own cells; 0 on held unknowns. Collective.
   void solve(std::span<const double> forces, std::span<double> moves) const;
 
@@ -22,7 +24,9 @@ class CoarsestSolve {
   const CellStiffness& cells_;
   std::size_t first_ = 0;  ///< of own unknowns among those of all ranks
   std::size_t total_ = 0;
-  const CoarsestFactor& factor_;
+  CoarsestFactor& factor_;
+  std::size_t held_ = 0;              ///< own entries that stand for held unknowns come first,
+  std::vector<std::size_t> entries_;  ///< then these values of the rows
 };
 
 }  // namespace cdca

@@ -90,6 +90,8 @@ class Hierarchy::Level final : public Scale {
     coarsest_ = std::make_unique<CoarsestSolve>(*cells_, factor);
   }
 
+  void turn_springs() { coarsest_->turn_springs(); }
+
   CoarseParts* parts() const { return parts_.get(); }
   const CellStiffness& stiffness() const { return *cells_; }
   const CellUnknowns& unknowns() const { return *unknowns_; }
@@ -112,6 +114,8 @@ class Hierarchy::Level final : public Scale {
 void Hierarchy::LevelDeleter::operator()(Level* level) const { delete level; }
 
 const Scale& Hierarchy::scale(std::size_t index) const { return *levels_[index]; }
+
+void Hierarchy::turn_springs() { levels_.front()->turn_springs(); }
 
 std::vector<GlobalId> Hierarchy::plan(const BasisContext& basis) {
   if (is_coarsest(basis.mesh.grid())) return all_own(basis.mesh);

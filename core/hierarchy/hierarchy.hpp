@@ -44,6 +44,9 @@ class Hierarchy final : public Scales {
   /// they were. Collective.
   void build(const FinestScale& finest, const CellStiffness& cells);
 
+  /// The springs of the cells have turned. Only where one factor moves all cells. Collective.
+  void turn_springs();
+
   std::size_t count() const override { return levels_.size(); }
   const Scale& scale(std::size_t index) const override;
   const WindowFactors& factors() const { return factors_; }

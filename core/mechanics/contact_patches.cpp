@@ -294,17 +294,15 @@ const ContactPatch* ContactPatches::find(int crack, int segment, const Vec2& x) 
   return nearest;
 }
 
-Vec2 ContactPatches::on_plus(int crack, int segment, const Vec2& x) const {
-  const ContactPatch* patch = find(crack, segment, x);
-  if (!patch) return {0, 0};
-  const ContactGroup& group = group_of(*patch);
-  const Segment& s = segments_.at({crack, segment});
+Vec2 ContactPatches::on_plus(const ContactPatch& patch) const {
+  const ContactGroup& group = group_of(patch);
+  const Segment& s = segments_.at({patch.crack, patch.segment});
   const Vec2 t = (s.b - s.a).normalized();
   const Vec2 mean = -group.normal * turned_left(t) - group.tangential * t;
   // a short face that opens among closed ones tells how it lies in its element: its neighbours'
   // force is spread over it
   if (group.closed > 0.5 * group.length) return group.closed / group.length * mean;
-  return patch->now.state == ContactState::open ? Vec2(0, 0) : mean;
+  return patch.now.state == ContactState::open ? Vec2(0, 0) : mean;
 }
 
 }  // namespace cdca

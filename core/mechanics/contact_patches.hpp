@@ -104,8 +104,8 @@ class ContactPatches final : public FaceSprings {
   /// The patch at a place x (m) of a segment; null where there is none.
   const ContactPatch* find(int crack, int segment, const Vec2& x) const;
   const ContactGroup& group_of(const ContactPatch& patch) const { return groups_[patch.group]; }
-  /// Traction on the plus face at a place of a segment, Pa, in global axes: that of the group.
-  Vec2 on_plus(int crack, int segment, const Vec2& x) const;
+  /// Traction on the plus face, Pa, in global axes: that of the group.
+  Vec2 on_plus(const ContactPatch& patch) const;
 
  private:
   /// A segment of a crack with the ends that it was made with, m.

@@ -167,45 +167,6 @@ void ContactSpots::add_forces(const ContactPatches& patches, LocalId owned,
   }
 }
 
-std::vector<ContactSpots::TurnedSpring> ContactSpots::turned(
-    const std::vector<ContactAnswer>& before, const ContactPatches& patches) const {
-  std::vector<TurnedSpring> found;
-  for (std::size_t k = 0; k < spots_.size(); ++k) {
-    const Spot& spot = spots_[k];
-    const ContactAnswer &was = before[spot.patch], &now = patches.patches()[spot.patch].now;
-    const auto add = [&](int axis, double old_spring, double spring) {
-      if (old_spring == spring) return;
-      const SpringTerms old_terms(spot.geometry, spot.at.compliance, old_spring);
-      const SpringTerms terms(spot.geometry, spot.at.compliance, spring);
-      found.push_back({k, axis, terms.jump - old_terms.jump, terms.mixed - old_terms.mixed,
-                       terms.stress - old_terms.stress});
-    };
-    add(0, was.tangential_spring, now.tangential_spring);
-    add(1, was.normal_spring, now.normal_spring);
-  }
-  return found;
-}
-
-void ContactSpots::add_turned(const std::vector<TurnedSpring>& springs,
-                              std::span<const double> state, LocalId owned, double share,
-                              std::span<double> forces) const {
-  for (const TurnedSpring& t : springs) {
-    const Spot& spot = spots_[t.spot];
-    const auto field = spot.at.field(spot.geometry, state);
-    const double jump = field.jump[t.axis], stress = field.traction[t.axis];
-    const double weight = share * spot.at.weight;
-    const Vec2 axis = t.axis == 0 ? spot.geometry.tangent : spot.geometry.normal;
-    const Vec2 by_jump = weight * (t.jump * jump + t.mixed * stress) * axis;
-    const Vec2 by_stress = weight * (t.mixed * jump - t.stress * stress) * axis;
-    for (const FaceFunction& f : spot.at.functions) {
-      if (f.unknown >= owned) continue;
-      const Vec2 force = f.jump.transpose() * by_jump + f.traction.transpose() * by_stress;
-      forces[std::size_t(f.unknown)] += force.x();
-      forces[std::size_t(f.unknown) + 1] += force.y();
-    }
-  }
-}
-
 double ContactSpots::energy_correction(const ContactPatches& patches, std::span<const double> state,
                                        Communicator& communicator) const {
   // u K u / 2 counts 1/2 (a g^2 + 2 b s g - c s^2) with the whole jump for g

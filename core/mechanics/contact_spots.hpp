@@ -42,19 +42,6 @@ class ContactSpots {
 
   /// Adds the nodal forces of given tractions, and of springs that have slipped, on own cells.
   void add_forces(const ContactPatches& patches, LocalId owned, std::span<double> forces) const;
-  /// A spring in one direction at a spot that is not what it was any more: what has come to the
-  /// terms of its form.
-  struct TurnedSpring {
-    std::size_t spot;
-    int axis;  ///< 0: along the face, 1: across
-    double jump, mixed, stress;
-  };
-  /// before: answers by patch, of which only the springs count.
-  std::vector<TurnedSpring> turned(const std::vector<ContactAnswer>& before,
-                                   const ContactPatches& patches) const;
-  /// Adds `share` times what these springs exert in a state (with ghosts), on own cells.
-  void add_turned(const std::vector<TurnedSpring>& springs, std::span<const double> state,
-                  LocalId owned, double share, std::span<double> forces) const;
   /// Stored in springs less what u K u / 2 counts for them, J per metre of thickness. Collective.
   double energy_correction(const ContactPatches& patches, std::span<const double> state,
                            Communicator& communicator) const;

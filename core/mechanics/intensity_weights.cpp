@@ -2,6 +2,8 @@
 #include "core/mechanics/intensity_weights.hpp"
 
 #include "core/cells/stiffness_cache.hpp"
+#include "core/cells/tip_quadrature.hpp"
+#include "core/mechanics/contact_patches.hpp"
 #include "core/mechanics/domain_weight.hpp"
 #include "core/mechanics/side_walk.hpp"
 #include "core/mechanics/williams.hpp"
@@ -213,12 +215,70 @@ Eigen::Matrix2d IntegralDomain::axes() const {
   return axes;
 }
 
-const std::vector<IntensityCache::Weight>& IntensityCache::of(const BasisContext& c,
-                                                              const IntegralDomain& domain,
-                                                              const Material& material) {
+void IntegralDomain::take_off(const Material& material, const Vec2& x, FaceSide side, double w,
+                              const Vec2& t, double m[2]) const {
+  const double r = zone.frame.local(x).norm();
+  if (r == 0.0) return;
+  const Vec2 along_tip = axes() * t;
+  const double angle = zone.frame.angle(x, side);
+  for (int mode = 0; mode < 2; ++mode)
+    m[mode] -= w * along_tip.dot(williams_field(material, mode + 1, r, angle).gradient.col(0));
+}
+
+void IntegralDomain::for_face_points(
+    const StructuredGrid& grid, GridIndex e, const CrackFace& face, bool plus,
+    const DomainWeight& q, const std::function<void(const Vec2&, FaceSide, double)>& visit) const {
+  const Vec2 corner(e.i, e.j);
+  const double length = (face.to - face.from).cwiseProduct(grid.element_size()).norm();
+  const SingularPlace tip{grid.to_grid(zone.frame.tip()) - corner, {}};
+  for (const auto& point : line_quadrature(face.from - corner, face.to - corner, {tip}))
+    visit(grid.from_grid(corner + point.at), side_of(face, plus),
+          point.weight * length * q.value(point.at));
+}
+
+namespace {
+
+/// What tractions on touching faces count for, in the order of patches.
+std::vector<IntensityCache::PatchWeight> weights_of_patches(const BasisContext& c,
+                                                            const IntegralDomain& domain,
+                                                            const Material& material,
+                                                            const ContactPatches& contact) {
+  const StructuredGrid& grid = c.mesh.grid();
+  std::map<std::size_t, IntensityCache::PatchWeight> found;
+  domain.for_each_element(c.mesh, [&](GridIndex e, const DomainWeight& q) {
+    for (const CrackFace& face : c.cuts.faces_at(e)) {
+      if (!contact.may_touch(face.crack)) continue;
+      for (const bool plus : {true, false}) {
+        if ((plus ? face.plus_element : face.minus_element) != e) continue;
+        domain.for_face_points(grid, e, face, plus, q, [&](const Vec2& x, FaceSide side, double w) {
+          const ContactPatch* patch = contact.find(face.crack, face.segment, x);
+          if (!patch) return;
+          const auto number = std::size_t(patch - contact.patches().data());
+          auto& weight = found.try_emplace(number, number).first->second;
+          for (int k = 0; k < 2; ++k) {
+            double m[2] = {0.0, 0.0};
+            domain.take_off(material, x, side, plus ? w : -w, Vec2::Unit(k), m);
+            weight.mode_1[k] += m[0];
+            weight.mode_2[k] += m[1];
+          }
+        });
+      }
+    }
+  });
+  std::vector<IntensityCache::PatchWeight> weights;
+  for (const auto& [number, weight] : found) weights.push_back(weight);
+  return weights;
+}
+
+}  // namespace
+
+const IntensityCache::OfTip& IntensityCache::of(const BasisContext& c, const IntegralDomain& domain,
+                                                const Material& material,
+                                                const ContactPatches* contact) {
   const auto [it, is_new] = tips_.try_emplace({domain.zone.crack, domain.zone.end, domain.radius});
-  std::vector<Weight>& all = it->second;
-  if (!is_new) return all;
+  if (!is_new) return it->second;
+  if (contact) it->second.patches = weights_of_patches(c, domain, material, *contact);
+  std::vector<Weight>& all = it->second.displacements;
   domain.for_each_element(c.mesh, [&](GridIndex e, const DomainWeight&) {
     std::vector<PartBasis> bases;
     for (int part = 0; part < c.cuts.parts(e); ++part) bases.emplace_back(c, e, part);
@@ -231,7 +291,7 @@ const std::vector<IntensityCache::Weight>& IntensityCache::of(const BasisContext
       }
     }
   });
-  return all;
+  return it->second;
 }
 
 const ElementWeights& IntensityCache::of(const BasisContext& c, GridIndex e,

@@ -14,6 +14,7 @@
 
 namespace cdca {
 
+class ContactPatches;
 class DomainWeight;
 
 /// Where the integral of one tip is taken.
@@ -31,6 +32,14 @@ struct IntegralDomain {
   FaceSide side_of(const CrackFace& face, bool plus) const;
   /// First row: the tip's tangent; second: to its left.
   Eigen::Matrix2d axes() const;
+
+  /// Takes w t_i u'_i,1 of modes I and II off m. t: traction at x (m) on that side, Pa.
+  void take_off(const Material& material, const Vec2& x, FaceSide side, double w, const Vec2& t,
+                double m[2]) const;
+  /// Calls visit(x, side, w) for all points of one side of a face in an element, w with q.
+  void for_face_points(const StructuredGrid& grid, GridIndex element, const CrackFace& face,
+                       bool plus, const DomainWeight& q,
+                       const std::function<void(const Vec2&, FaceSide, double)>& visit) const;
 };
 
 /// What every unknown of an element adds to M of modes I and II (columns), N/m per metre of
@@ -45,14 +54,25 @@ class IntensityCache {
     LocalId unknown;
     double mode_1, mode_2;
   };
-  /// To be called when cracks or unknowns change.
+  /// What tractions of 1 Pa along x and y on the plus face of a patch, and against it on the minus
+  /// face, add.
+  struct PatchWeight {
+    std::size_t patch;
+    Vec2 mode_1{0, 0}, mode_2{0, 0};
+  };
+  /// Of all elements in the domain of a tip that this rank evaluates.
+  struct OfTip {
+    std::vector<Weight> displacements;
+    std::vector<PatchWeight> patches;
+  };
+  /// To be called when cracks, patches or unknowns change.
   void begin_cycle() {
     weights_.begin_cycle();
     tips_.clear();
   }
-  /// Those of all elements in the domain of a tip that this rank evaluates.
-  const std::vector<Weight>& of(const BasisContext& context, const IntegralDomain& domain,
-                                const Material& material);
+  /// contact: patches of faces that may touch; null for none.
+  const OfTip& of(const BasisContext& context, const IntegralDomain& domain,
+                  const Material& material, const ContactPatches* contact);
 
  private:
   /// bases: of the parts of the element.
@@ -60,7 +80,7 @@ class IntensityCache {
                            const std::vector<PartBasis>& bases, const IntegralDomain& domain,
                            const Material& material);
 
-  std::map<std::tuple<int, int, double>, std::vector<Weight>> tips_;  ///< crack, end, radius
+  std::map<std::tuple<int, int, double>, OfTip> tips_;  ///< crack, end, radius
   ContentCache<ElementWeights> weights_{cycles_of_a_step};
 };
 

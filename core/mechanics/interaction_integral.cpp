@@ -45,38 +45,31 @@ class TipIntegral {
  public:
   TipIntegral(const BasisContext& c, const IntegralDomain& domain, const Material& material,
               const ExternalLoads& loads)
-      : c_(c),
-        grid_(c.mesh.grid()),
-        domain_(domain),
-        frame_(domain.zone.frame),
-        material_(material),
-        loads_(loads),
-        axes_(domain.axes()) {}
+      : c_(c), grid_(c.mesh.grid()), domain_(domain), material_(material), loads_(loads) {}
 
   /// Adds the share of this rank: m[0] for mode I, m[1] for mode II.
   void add(std::span<const double> state, IntensityCache& cache, double m[2]) {
-    for (const auto& [unknown, mode_1, mode_2] : cache.of(c_, domain_, material_)) {
+    const auto& weights = cache.of(c_, domain_, material_, loads_.contact);
+    for (const auto& [unknown, mode_1, mode_2] : weights.displacements) {
       m[0] += mode_1 * state[std::size_t(unknown)];
       m[1] += mode_2 * state[std::size_t(unknown)];
     }
+    for (const auto& [patch, mode_1, mode_2] : weights.patches) {
+      const Vec2 t = loads_.contact->on_plus(loads_.contact->patches()[patch]);
+      m[0] += mode_1.dot(t);
+      m[1] += mode_2.dot(t);
+    }
+    if (!loads_.body && loads_.faces.empty() && loads_.tractions.empty()) return;
     domain_.for_each_element(c_.mesh, [&](GridIndex e, const DomainWeight& q) {
       add_body_force(e, q, m);
-      for (const CrackFace& face : c_.cuts.faces_at(e)) {
-        if (face.plus_element == e) add_face_tractions(e, face, true, q, m);
-        if (face.minus_element == e) add_face_tractions(e, face, false, q, m);
-      }
+      add_face_loads(e, q, m);
       for (const Side side : sides_at(grid_, e)) add_side_tractions(e, side, q, m);
     });
   }
 
  private:
-  /// Takes w t_i u'_i,1 off; t in the axes of the tip.
   void take_off(const Vec2& x, FaceSide side, double w, const Vec2& t, double m[2]) const {
-    const double r = frame_.local(x).norm();
-    if (r == 0.0) return;
-    const double angle = frame_.angle(x, side);
-    for (int mode = 0; mode < 2; ++mode)
-      m[mode] -= w * t.dot(williams_field(material_, mode + 1, r, angle).gradient.col(0));
+    domain_.take_off(material_, x, side, w, t, m);
   }
 
   void add_body_force(GridIndex e, const DomainWeight& q, double m[2]) const {
@@ -86,29 +79,26 @@ class TipIntegral {
                                                          grid_.element_size(), orders_of_loads)) {
         const Vec2 x = grid_.from_grid(Vec2(e.i, e.j) + point.at);
         const double w = point.weight * grid_.element_size().prod() * q.value(point.at);
-        take_off(x, FaceSide::none, w, axes_ * loads_.body(x), m);
+        take_off(x, FaceSide::none, w, loads_.body(x), m);
       }
     }
   }
 
-  void add_face_tractions(GridIndex e, const CrackFace& face, bool plus, const DomainWeight& q,
-                          double m[2]) const {
-    const FaceLoad* load = nullptr;
-    for (const FaceLoad& l : loads_.faces) {
-      if (l.crack == face.crack) load = &l;
-    }
-    const bool touches = loads_.contact && loads_.contact->may_touch(face.crack);
-    if (!load && !touches) return;
-    const Vec2 corner(e.i, e.j);
-    const Vec2 along = (face.to - face.from).cwiseProduct(grid_.element_size());
-    const Vec2 n = turned_left(along).normalized();
-    for (const auto& point : line_quadrature(face.from - corner, face.to - corner, {tip_in(e)})) {
-      const Vec2 x = grid_.from_grid(corner + point.at);
-      Vec2 t = load ? load->on_plus(x, n) : Vec2(0, 0);
-      if (touches) t += loads_.contact->on_plus(face.crack, face.segment, x);
-      if (!plus) t = -t;
-      const double w = point.weight * along.norm() * q.value(point.at);
-      take_off(x, domain_.side_of(face, plus), w, axes_ * t, m);
+  void add_face_loads(GridIndex e, const DomainWeight& q, double m[2]) const {
+    if (loads_.faces.empty()) return;
+    for (const CrackFace& face : c_.cuts.faces_at(e)) {
+      for (const FaceLoad& load : loads_.faces) {
+        if (load.crack != face.crack) continue;
+        for (const bool plus : {true, false}) {
+          if ((plus ? face.plus_element : face.minus_element) != e) continue;
+          const Vec2 along = (face.to - face.from).cwiseProduct(grid_.element_size());
+          const Vec2 n = turned_left(along).normalized();
+          domain_.for_face_points(grid_, e, face, plus, q,
+                                  [&](const Vec2& x, FaceSide side, double w) {
+                                    take_off(x, side, plus ? w : -w, load.on_plus(x, n), m);
+                                  });
+        }
+      }
     }
   }
 
@@ -122,22 +112,20 @@ class TipIntegral {
       for (const QuadraturePoint& point : line_quadrature(from, to, {tip_in(e)})) {
         const Vec2 x = grid_.from_grid(Vec2(e.i, e.j) + point.at);
         const double w = point.weight * length * q.value(point.at);
-        take_off(x, FaceSide::none, w, axes_ * load.value(x), m);
+        take_off(x, FaceSide::none, w, load.value(x), m);
       }
     }
   }
 
   SingularPlace tip_in(GridIndex e) const {
-    return {grid_.to_grid(frame_.tip()) - Vec2(e.i, e.j), {}};
+    return {grid_.to_grid(domain_.zone.frame.tip()) - Vec2(e.i, e.j), {}};
   }
 
   const BasisContext& c_;
   const StructuredGrid& grid_;
   const IntegralDomain& domain_;
-  const TipFrame& frame_;
   const Material& material_;
   const ExternalLoads& loads_;
-  Eigen::Matrix2d axes_;
 };
 
 /// The group of patches at a tip, when the faces touch at the tip.

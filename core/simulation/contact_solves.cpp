@@ -27,29 +27,11 @@ void ContactSolves::once(const Accuracy& accuracy) {
   set_forces_of_faces();
   const SolverReport report = solve_once(model_, solver_, load_factor_, given_, accuracy);
   ++count_;
-  if (quickest_ == 0 || report.iterations < quickest_) quickest_ = report.iterations;
-  lost_ += report.iterations - quickest_;
   slowest_.converged = report.converged;
   slowest_.rounded = report.rounded;
   slowest_.iterations = std::max(slowest_.iterations, report.iterations);
   slowest_.residual = report.residual;
   slowest_.scale = report.scale;
-}
-
-void ContactSolves::build_stiffness(double weak) {
-  model_.renew_stiffness(weak);
-  quickest_ = lost_ = 0;
-}
-
-void ContactSolves::turn_springs(double weak) {
-  constexpr int worth_a_build = 15;  // iterations that take as long
-  constexpr std::size_t few = 2;     // patches; each may cost some iterations in every solve
-  const bool one_factor = model_.hierarchy().count() == 1;
-  if (one_factor && lost_ < worth_a_build && model_.turned_patches() <= few) {
-    model_.turn_springs(weak);
-  } else {
-    build_stiffness(weak);
-  }
 }
 
 void ContactSolves::turn_limits(double agreed, double part) {
@@ -83,7 +65,7 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
   given_.anchor = state;  // lest the faces, each a little pressed, drive loose bodies far apart
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
-    if (!built) build_stiffness(loosest);
+    if (!built) model_.renew_stiffness(loosest);
     built = true;
     once({1.0, balance.unbalanced > nearly ? of_unbalanced : 0.0});
     return gaps();
@@ -126,14 +108,14 @@ ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) 
   }
   const auto here = gaps();
   contact.respond(here, contact.limits_at(here));
-  build_stiffness(loosest);
+  model_.renew_stiffness(loosest);
   set_forces_of_faces();
   return balance;
 }
 
 double ContactSolves::held_back(const std::vector<double>& move) const {
   if (!model_.has_weak_springs() || slowest_.scale == 0.0) return 0.0;
-  const TurnedCells& cells = model_.cells();
+  const CellStiffness& cells = model_.stiffness();
   std::vector<double> weak(std::size_t(cells.count()), 0.0);
   cells.add_spring_forces(move, weak);
   return std::sqrt(cells.dot(weak, weak)) / slowest_.scale;

@@ -27,13 +27,6 @@ class ContactSolves {
   /// to it. Does not begin anew where it has come as near as this.
   Balance balance_faces(double enough, double near);
 
-  /// Brings the stiffness up to date. Where one factor moves all cells, what has changed since it
-  /// was built lies on top of it for as long as the solves are not much slower for that. weak: of
-  /// the springs of loose bodies.
-  void turn_springs(double weak);
-  /// Brings the stiffness itself up to date, with nothing on top of it.
-  void build_stiffness(double weak);
-
   std::vector<ContactGap> gaps() const;
   /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
   /// have gone far enough yet.
@@ -58,8 +51,6 @@ class ContactSolves {
   Forces& given_;
   SolverReport slowest_;
   int count_ = 0;
-  int quickest_ = 0;  ///< iterations of a solve since the stiffness was built; 0: none yet
-  int lost_ = 0;      ///< iterations since then, less so many a solve
 };
 
 }  // namespace cdca

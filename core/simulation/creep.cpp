@@ -71,7 +71,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     model.remember(first_memory);
     model.state() = first;
   }
-  solves.build_stiffness(ContactSolves::loosest);  // without the drag
+  model.renew_stiffness(ContactSolves::loosest);  // without the drag
   return crept;
 }
 

@@ -19,7 +19,7 @@ EnergyTotals EnergyLedger::totals() const {
 }
 
 void EnergyLedger::keep(const Model& model, const Equilibrium& e, double factor) {
-  const CellSystem& cells = model.cells();
+  const CellSystem& cells = model.stiffness();
   strain_energy_ = e.strain_energy;
   potential_ = cells.dot(e.external, model.state());
   support_potential_ = cells.dot(e.supports, model.state());

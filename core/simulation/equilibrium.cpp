@@ -46,7 +46,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
     result.solver = settle_contact(model, solver, load_factor, faces, given, result);
   }
 
-  const TurnedCells& cells = model.cells();
+  const CellStiffness& cells = model.stiffness();
   std::vector<double> product(all, 0.0);
   cells.apply(model.state(), product);
   std::vector<double> weak(all, 0.0);

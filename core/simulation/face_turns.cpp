@@ -44,7 +44,7 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
   // new faces answer to where they are, so that the first move goes towards balance
   const auto here = solves.gaps();
   const bool turned = model.contact().respond(here, model.contact().limits_at(here)).springs;
-  if (turned || drags()) solves.turn_springs(weak_);
+  if (turned || drags()) model.renew_stiffness(weak_);
 }
 
 FaceTurns::End FaceTurns::turn() {
@@ -56,7 +56,7 @@ FaceTurns::End FaceTurns::turn() {
 }
 
 void FaceTurns::begin_again() {
-  solves_.build_stiffness(weak_);
+  model_.renew_stiffness(weak_);
   unbalanced_ = nearly;
   cut_short_ = 0;
 }
@@ -86,7 +86,8 @@ bool FaceTurns::once() {
   // bodies that only others hold are let go little by little
   const double before = weak_;
   if (whole && !drags()) weak_ = std::max(weakest, 0.3 * weak_);
-  if (change.springs || (weak_ != before && model_.has_weak_springs())) solves_.turn_springs(weak_);
+  if (change.springs || (weak_ != before && model_.has_weak_springs()))
+    model_.renew_stiffness(weak_);
   constexpr double tiny = std::numeric_limits<double>::min();
   const double largest = std::max({change.largest, change.unbalanced, tiny});
   unbalanced_ = (drags() ? change.at_limits : change.unbalanced) / largest;

@@ -20,7 +20,7 @@ LineSearch::LineSearch(const Model& model, const std::vector<double>& external,
                        const std::vector<double>& from, const std::vector<double>& anchor)
     : model_(model), move_(model.state()) {
   for (std::size_t k = 0; k < move_.size(); ++k) move_[k] -= from[k];
-  const TurnedCells& cells = model.cells();
+  const CellStiffness& cells = model.stiffness();
   std::vector<double> product(move_.size(), 0.0);
   cells.apply(from, product);
   for (std::size_t k = 0; k < product.size(); ++k) product[k] = external[k] - product[k];

@@ -29,7 +29,7 @@ double norm(const CellSystem& cells, const std::vector<double>& forces) {
 
 SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
                         Forces& given, const Accuracy& accuracy) {
-  const TurnedCells& cells = model.cells();
+  const CellStiffness& cells = model.stiffness();
   const SolverSpec& spec = model.spec().solver;
   const auto own = std::size_t(cells.owned());
   std::vector<double> forces(std::size_t(cells.count()), 0.0);

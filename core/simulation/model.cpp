@@ -156,6 +156,12 @@ void Model::let_slip() {
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
 void Model::renew_stiffness(double weak_share) {
+  if (hierarchy_.count() == 1) {
+    ++stiffness_version_;
+    stiffness_->turn_springs(unknowns_, mesh_, *elements_, springs(weak_share));
+    hierarchy_.turn_springs();
+    return;
+  }
   const CarriedCells carried(mesh_, unknowns_, *stiffness_, unknowns_, {{}, {}, turned_elements()},
                              supports_.flags(unknowns_.count()), springs(weak_share));
   make_stiffness(weak_share, &carried);
@@ -178,26 +184,7 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
       multilevel ? hierarchy_.plan(basis()) : std::vector<GlobalId>(),
       multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_, carried);
   if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces, carried}, *stiffness_);
-  cells_ = std::make_unique<TurnedCells>(*stiffness_, spots_);
-  built_weak_share_ = weak_share;
-  built_answers_.clear();
-  for (const ContactPatch& p : contact_.patches()) built_answers_.push_back(p.now);
   if (hierarchy_.count() > 1) built_springs_ = contact_.springs();
-}
-
-std::size_t Model::turned_patches() const {
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < built_answers_.size(); ++p) {
-    const ContactAnswer &was = built_answers_[p], &now = contact_.patches()[p].now;
-    count +=
-        was.normal_spring != now.normal_spring || was.tangential_spring != now.tangential_spring;
-  }
-  return count;
-}
-
-void Model::turn_springs(double weak_share) {
-  ++stiffness_version_;
-  cells_->turn(spots_.turned(built_answers_, contact_), weak_share / built_weak_share_);
 }
 
 void Model::lay_cracks(CrackRegistry registry) {

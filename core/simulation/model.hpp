@@ -12,7 +12,6 @@
 #include "core/mechanics/material.hpp"
 #include "core/mechanics/supports.hpp"
 #include "core/simulation/case_spec.hpp"
-#include "core/simulation/turned_cells.hpp"
 
 #include <memory>
 #include <optional>
@@ -36,12 +35,6 @@ class Model {
   void build_stiffness(double weak_share = 1e-3);
   /// The same, where only springs have changed since: the rest is taken over. Collective.
   void renew_stiffness(double weak_share = 1e-3);
-  /// The springs of faces are what the patches answer now, and weak springs have this share,
-  /// without new rows and factors. Only for the multilevel solver, whose scales stay as they are.
-  /// Collective.
-  void turn_springs(double weak_share);
-  /// Patches whose springs are not those that the stiffness was built with.
-  std::size_t turned_patches() const;
   /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
   /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
   /// anew. Bodies that nothing holds any more get a weak spring. Collective.
@@ -106,11 +99,8 @@ class Model {
   const CellUnknowns& unknowns() const { return unknowns_; }
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
-  /// As it was built last.
   const CellStiffness& stiffness() const { return *stiffness_; }
-  /// The same with springs that have turned since.
-  const TurnedCells& cells() const { return *cells_; }
-  /// Changes with every build_stiffness() and turn_springs().
+  /// Changes with every build_stiffness() and renew_stiffness().
   std::int64_t stiffness_version() const { return stiffness_version_; }
   /// K of the active tips under the loads of a load factor, in the state as it is. wanted: which
   /// tips; empty for all. Collective.
@@ -184,10 +174,7 @@ class Model {
   ElasticMatrix elastic_;
   std::unique_ptr<FinestElements> elements_;
   std::unique_ptr<CellStiffness> stiffness_;
-  std::vector<ContactAnswer> built_answers_;  ///< of the patches, in the stiffness
-  SpringsOfElements built_springs_;           ///< the same as springs
-  double built_weak_share_ = 0.0;
-  std::unique_ptr<TurnedCells> cells_;
+  SpringsOfElements built_springs_;  ///< of the patches, in the stiffness
   std::int64_t stiffness_version_ = 0;
   bool all_held_ = false;  ///< by weak springs
   double rubbed_ = 0.0;    ///< work of friction on the way to the next equilibrium, J per metre
