@@ -13,7 +13,7 @@ namespace cdca {
 
 namespace {
 
-constexpr int most_creeping = 400;  ///< turns of creep
+constexpr int most_creeping = 600;  ///< turns of creep
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);

@@ -43,7 +43,13 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
   if (drags()) given.anchor = model.state();
   // new faces answer to where they are, so that the first move goes towards balance
   const auto here = solves.gaps();
-  const bool turned = model.contact().respond(here, model.contact().limits_at(here)).springs;
+  auto limits = model.contact().limits_at(here);
+  if (rule.ahead != 1.0) {
+    const auto before = model.contact().limits();
+    for (std::size_t p = 0; p < limits.size(); ++p)
+      limits[p] = std::max(0.0, before[p] + rule.ahead * (limits[p] - before[p]));
+  }
+  const bool turned = model.contact().respond(here, limits).springs;
   if (turned || drags()) model.renew_stiffness(weak_);
 }
 

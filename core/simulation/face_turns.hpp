@@ -16,6 +16,9 @@ class FaceTurns {
     /// Drag on all bodies from where they are at first, as a part of the cells' own stiffness.
     /// Without it loose bodies alone feel weak springs, which go along with them and get weaker.
     double drag = 0.0;
+    /// How far limits of friction go at first, in steps from those before to those that pressures
+    /// ask for.
+    double ahead = 1.0;
   };
   /// Begins at the model's state. Collective, as the others.
   FaceTurns(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
