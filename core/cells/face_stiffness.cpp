@@ -83,30 +83,28 @@ Eigen::Matrix2d traction_of(const Vec2& g, const Vec2& n, const ElasticMatrix& d
 }
 
 SpotForms::SpotForms(const FaceSpot& spot, const FaceGeometry& face)
-    : face_(face), weight_(spot.weight), compliance_(spot.compliance) {
-  const auto size = Eigen::Index(2 * spot.functions.size());
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const Vec2& axis = d == 0 ? face.normal : face.tangent;
-    auto& [jump, stress] = directions_[d];
-    jump.resize(size);
-    stress.resize(size);
-    for (std::size_t k = 0; k < spot.functions.size(); ++k) {
-      const FaceFunction& f = spot.functions[k];
-      jump.segment<2>(Eigen::Index(2 * k)) = f.jump.transpose() * axis;
-      stress.segment<2>(Eigen::Index(2 * k)) = f.traction.transpose() * axis;
-    }
+    : face_(face),
+      weight_(spot.weight),
+      compliance_(spot.compliance),
+      effects_(2 * Eigen::Index(spot.functions.size()), 4) {
+  for (std::size_t k = 0; k < spot.functions.size(); ++k) {
+    const FaceFunction& f = spot.functions[k];
+    auto own = effects_.middleRows<2>(Eigen::Index(2 * k));
+    own.col(0) = f.jump.transpose() * face.normal;
+    own.col(1) = f.traction.transpose() * face.normal;
+    own.col(2) = f.jump.transpose() * face.tangent;
+    own.col(3) = f.traction.transpose() * face.tangent;
   }
 }
 
 void SpotForms::add_springs(const FaceStretch& springs, Eigen::Ref<Eigen::MatrixXd> matrix) const {
-  for (std::size_t d = 0; d < directions_.size(); ++d) {
-    const auto& [jump, stress] = directions_[d];
+  Eigen::Matrix4d form = Eigen::Matrix4d::Zero();
+  for (int d = 0; d < 2; ++d) {
     const SpringTerms terms(face_, compliance_, d == 0 ? springs.normal : springs.tangential);
-    matrix += (weight_ * terms.jump) * jump * jump.transpose();
-    if (terms.stress == 0.0 && terms.mixed == 0.0) continue;
-    const Eigen::VectorXd mix = weight_ * (terms.mixed * jump - 0.5 * terms.stress * stress);
-    matrix += mix * stress.transpose() + stress * mix.transpose();
+    form.block<2, 2>(2 * d, 2 * d) << terms.jump, terms.mixed, terms.mixed, -terms.stress;
   }
+  const Eigen::MatrixXd weighted = effects_ * (weight_ * form);
+  matrix.noalias() += weighted * effects_.transpose();
 }
 
 std::vector<FacePoint> plain_points(const CrackFace& face, const FaceGeometry& geometry,

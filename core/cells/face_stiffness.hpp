@@ -100,13 +100,11 @@ class SpotForms {
   void add_springs(const FaceStretch& springs, Eigen::Ref<Eigen::MatrixXd> matrix) const;
 
  private:
-  /// What 1 m of every unknown does to the jump and to the mean stress.
-  struct Direction {
-    Eigen::VectorXd jump, stress;
-  };
   FaceGeometry face_;
   double weight_, compliance_;
-  std::array<Direction, 2> directions_;  ///< across the face, and along it
+  /// What 1 m of every unknown does to the jump and to the mean stress across the face, then to
+  /// both along it.
+  Eigen::MatrixX4d effects_;
 };
 
 /// A place on a face: grid coordinates and length element, m.

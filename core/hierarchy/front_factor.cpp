@@ -140,8 +140,10 @@ bool FrontFactor::factorize(const Eigen::SparseMatrix<double>& lower) {
 
 void FrontFactor::assemble(const Front& front, const Eigen::SparseMatrix<double>& lower) {
   Dense columns = lower_of(front);
-  columns.setZero();
-  rest_of(front).setZero();
+  Dense rest = rest_of(front);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k)
+    columns.col(k).tail(columns.rows() - k).setZero();
+  for (Eigen::Index k = 0; k < rest.cols(); ++k) rest.col(k).tail(rest.rows() - k).setZero();
   for (int k = 0; k < front.count; ++k) row_[std::size_t(front.first + k)] = k;
   for (std::size_t k = 0; k < front.later.size(); ++k)
     row_[std::size_t(front.later[k])] = front.count + int(k);
