@@ -45,9 +45,20 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     note(crept.unbalanced);
     return crept.found;
   };
+  // loose bodies can run so far that no solve is exact any more
+  const auto turn_or_go_back = [&] {
+    try {
+      return turns.turn();
+    } catch (const SolveError&) {
+      if (!model.has_weak_springs() || !FaceBarrier::suits(model.contact())) throw;
+      model.remember(at_first);
+      model.state() = here;
+      return FaceTurns::End::jammed;
+    }
+  };
   int jams = 0;
   while (turns.count() < most) {
-    const FaceTurns::End end = turns.turn();
+    const FaceTurns::End end = turn_or_go_back();
     note(turns.unbalanced());
     if (end == FaceTurns::End::balanced) return solves.slowest();
     if (end == FaceTurns::End::too_many || !FaceBarrier::suits(model.contact())) continue;

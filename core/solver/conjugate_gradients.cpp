@@ -60,7 +60,7 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     system.set_residual(forces, u, residual);
     report.residual = std::sqrt(system.dot(residual, residual)) / scale;
   };
-  constexpr double coarsest_rounding = 1e-6;  // where all of the tolerance is asked for
+  constexpr double coarsest_rounding = 1e-6;
   const int limit = options.max_iterations > 0 ? options.max_iterations : 200000;
   set_residual();
   const double enough = accuracy.enough(options.tolerance, report.residual);
@@ -98,8 +98,7 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     // the recurrence has ended twice, and the true residual is where it was: that is rounding, too
     if (ended && report.residual > 0.5 * before) least = report.residual;
     before = ended ? report.residual : std::numeric_limits<double>::infinity();
-    report.converged = report.rounded =
-        report.residual <= std::min(least, coarsest_rounding * enough / options.tolerance);
+    report.converged = report.rounded = report.residual <= std::min(least, coarsest_rounding);
   }
   return report;
 }
