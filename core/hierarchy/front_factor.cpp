@@ -159,10 +159,10 @@ void FrontFactor::add_rest(const Front& child, const Front& front) {
   const auto& to = child.rows_in_next;
   for (Eigen::Index c = 0; c < from.cols(); ++c) {
     const int column = to[std::size_t(c)];
-    double* into = column < front.count
-                       ? &columns(0, column)
-                       : rest.data() + (column - front.count) * rest.rows() - front.count;
-    for (Eigen::Index r = c; r < from.rows(); ++r) into[to[std::size_t(r)]] += from(r, c);
+    // rows of what is left count from the later unknowns on
+    const int skipped = column < front.count ? 0 : front.count;
+    double* into = skipped == 0 ? &columns(0, column) : &rest(0, column - skipped);
+    for (Eigen::Index r = c; r < from.rows(); ++r) into[to[std::size_t(r)] - skipped] += from(r, c);
   }
 }
 
