@@ -30,11 +30,14 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
 
 /// Bodies that drag no longer holds up still slide on for as long as limits of friction are not
 /// what pressures ask for. Where they come no nearer to that from step to step, they go farther at
-/// once. change: of what they are off by, since the step before.
-double next_ahead(double ahead, double change) {
-  constexpr double nearer = 0.7, farther = 1.5, most = 32;
+/// once, but not by more than a hundredth of the largest traction: what rubs on the way is counted.
+/// off: what they are off by now, and were in the step before.
+double next_ahead(double ahead, double off, double off_before) {
+  constexpr double nearer = 0.7, farther = 1.5, most = 32, most_off = 0.01;
+  const double change = off / off_before;
   if (change > farther) return 1.0;
-  return change > nearer ? std::min(most, 2 * ahead) : ahead;
+  const double next = change > nearer ? 2 * ahead : ahead;
+  return std::max(1.0, std::min({most, next, most_off / off}));
 }
 
 }  // namespace
@@ -69,7 +72,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     const bool rests = now.pulled <= at_rest;
     crept.found = rests && close == enough && now.limits_agree;
     if (crept.found) break;
-    ahead = rests ? next_ahead(ahead, now.limits_off / off_before) : 1.0;
+    ahead = rests ? next_ahead(ahead, now.limits_off, off_before) : 1.0;
     off_before = now.limits_off;
     close = rests ? enough : std::clamp(part * now.pulled, enough, roughly);
     model.let_slip();
