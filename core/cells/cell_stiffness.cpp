@@ -75,7 +75,7 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   const auto with_rows = cells_with_rows(mesh, elements.special(), held_, own_rows);
   regular_ = RegularRuns(mesh, runs_without(mesh.own_runs(), with_rows), elements.plain());
   build_rows(mesh, unknowns, elements, with_rows, carried);
-  add_all_springs(unknowns, mesh, elements, springs);
+  add_all_springs(mesh, unknowns, elements, springs);
   if (sweeps == Sweeps::one_after_the_other) {
     build_groups(mesh, unknowns, held, with_rows);
     order_items();
@@ -83,14 +83,14 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   }
 }
 
-void CellStiffness::turn_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+void CellStiffness::turn_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
                                  ElementStiffness& elements, const std::vector<double>& springs) {
   if (!without_springs_.empty()) rows_.value = without_springs_;
   springs_.clear();
-  add_all_springs(unknowns, mesh, elements, springs);
+  add_all_springs(mesh, unknowns, elements, springs);
 }
 
-void CellStiffness::add_all_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+void CellStiffness::add_all_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
                                     ElementStiffness& elements,
                                     const std::vector<double>& springs) {
   if (!springs.empty()) without_springs_ = rows_.value;

@@ -35,7 +35,7 @@ class CellStiffness final : public CellSystem {
 
   /// Springs of faces are what the elements say now, and weak springs these; all else stays. Not
   /// for cells that sweep. Collective where the constructor is.
-  void turn_springs(const CellUnknowns& unknowns, const LocalMesh& mesh, ElementStiffness& elements,
+  void turn_springs(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                     const std::vector<double>& springs);
 
   LocalId owned() const override { return owned_; }
@@ -91,7 +91,7 @@ class CellStiffness final : public CellSystem {
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<LocalId>& with_rows, const CarriedCells* carried);
   /// Springs of faces and weak springs, on top of the rows.
-  void add_all_springs(const CellUnknowns& unknowns, const LocalMesh& mesh,
+  void add_all_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
                        ElementStiffness& elements, const std::vector<double>& springs);
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   /// Combinations of near-tip functions that strain nothing, as where these act on a small corner

@@ -29,8 +29,8 @@ std::vector<std::vector<int>> coupled_later(const Eigen::SparseMatrix<double>& l
     const int* rows = lower.innerIndexPtr();
     std::copy_if(rows + lower.outerIndexPtr()[j], rows + lower.outerIndexPtr()[j + 1],
                  std::back_inserter(others), is_new);
-    for (const int child : passed[j])
-      std::ranges::copy_if(later[std::size_t(child)], std::back_inserter(others), is_new);
+    for (const int before : passed[j])
+      std::ranges::copy_if(later[std::size_t(before)], std::back_inserter(others), is_new);
     std::ranges::sort(others);
     const auto middle = std::ptrdiff_t(own.size());
     own.insert(own.end(), others.begin(), others.end());
@@ -58,7 +58,7 @@ void FrontFactor::lay_fronts(const Eigen::SparseMatrix<double>& lower) {
     while (joins_the_one_before()) {
     }
   }
-  find_parents(int(later.size()));
+  link_fronts(int(later.size()));
   lay_storage();
 }
 
@@ -79,22 +79,22 @@ bool FrontFactor::joins_the_one_before() {
   return true;
 }
 
-void FrontFactor::find_parents(int unknowns) {
+void FrontFactor::link_fronts(int unknowns) {
   std::vector<int> front_of(static_cast<std::size_t>(unknowns));
   for (std::size_t f = 0; f < fronts_.size(); ++f)
     std::fill_n(front_of.begin() + fronts_[f].first, fronts_[f].count, int(f));
-  children_.assign(fronts_.size(), {});
+  taken_up_.assign(fronts_.size(), {});
   row_.assign(std::size_t(unknowns), 0);
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     if (front.later.empty()) continue;
-    const auto next = std::size_t(front_of[std::size_t(front.later.front())]);
-    children_[next].push_back(int(f));
-    const Front& parent = fronts_[next];
+    const auto number = std::size_t(front_of[std::size_t(front.later.front())]);
+    taken_up_[number].push_back(int(f));
+    const Front& next = fronts_[number];
     for (const int u : front.later) {
-      const auto at = std::ranges::lower_bound(parent.later, u) - parent.later.begin();
-      const bool eliminated_there = u < parent.first + parent.count;
-      front.rows_in_next.push_back(eliminated_there ? u - parent.first : parent.count + int(at));
+      const auto at = std::ranges::lower_bound(next.later, u) - next.later.begin();
+      const bool eliminated_there = u < next.first + next.count;
+      front.rows_in_next.push_back(eliminated_there ? u - next.first : next.count + int(at));
     }
   }
 }
@@ -120,15 +120,15 @@ bool FrontFactor::factorize(const Eigen::SparseMatrix<double>& lower) {
     const Front& front = fronts_[f];
     const auto begin = std::size_t(lower.outerIndexPtr()[front.first]);
     const auto end = std::size_t(lower.outerIndexPtr()[front.first + front.count]);
-    const auto& children = children_[f];
+    const auto& before = taken_up_[f];
     const bool same =
         !anew && std::equal(values + begin, values + end, values_.data() + begin) &&
-        std::ranges::none_of(children, [&](int c) { return renewed[std::size_t(c)] != 0; });
+        std::ranges::none_of(before, [&](int b) { return renewed[std::size_t(b)] != 0; });
     if (same) continue;
     renewed[f] = 1;
     ++renewed_;
     assemble(front, lower);
-    for (const int c : children) add_rest(fronts_[std::size_t(c)], front);
+    for (const int b : before) add_rest(fronts_[std::size_t(b)], front);
     if (!eliminate(front)) {
       values_.clear();
       return false;
@@ -153,10 +153,10 @@ void FrontFactor::assemble(const Front& front, const Eigen::SparseMatrix<double>
   }
 }
 
-void FrontFactor::add_rest(const Front& child, const Front& front) {
+void FrontFactor::add_rest(const Front& before, const Front& front) {
   Dense columns = lower_of(front), rest = rest_of(front);
-  const Dense from = rest_of(child);
-  const auto& to = child.rows_in_next;
+  const Dense from = rest_of(before);
+  const auto& to = before.rows_in_next;
   for (Eigen::Index c = 0; c < from.cols(); ++c) {
     const int column = to[std::size_t(c)];
     // rows of what is left count from the later unknowns on

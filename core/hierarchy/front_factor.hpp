@@ -45,9 +45,9 @@ class FrontFactor {
 
   bool joins_the_one_before();
   void lay_storage();
-  void find_parents(int unknowns);
+  void link_fronts(int unknowns);
   void assemble(const Front& front, const Eigen::SparseMatrix<double>& lower);
-  void add_rest(const Front& child, const Front& front);
+  void add_rest(const Front& before, const Front& front);
   bool eliminate(const Front& front);
   Dense lower_of(const Front& f) { return {lower_.data() + f.lower, f.rows(), f.count}; }
   ConstDense lower_of(const Front& f) const { return {lower_.data() + f.lower, f.rows(), f.count}; }
@@ -56,7 +56,7 @@ class FrontFactor {
   }
 
   std::vector<Front> fronts_;
-  std::vector<std::vector<int>> children_;
+  std::vector<std::vector<int>> taken_up_;  ///< by front: those whose rest it takes up
   std::vector<double> lower_, rest_;
   std::vector<double> values_;  ///< that the fronts were made for
   std::vector<int> row_;        ///< of unknowns in the front at hand

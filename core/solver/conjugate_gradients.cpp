@@ -60,7 +60,7 @@ SolverReport conjugate_gradients(const CellSystem& system, const Preconditioner&
     system.set_residual(forces, u, residual);
     report.residual = std::sqrt(system.dot(residual, residual)) / scale;
   };
-  constexpr double coarsest_rounding = 1e-6;
+  constexpr double coarsest_rounding = 1e-6;  // beyond that no result is of any use
   const int limit = options.max_iterations > 0 ? options.max_iterations : 200000;
   set_residual();
   const double enough = accuracy.enough(options.tolerance, report.residual);
