@@ -26,7 +26,7 @@ is_installed() {
 read_installed
 packages=(
   g++ cmake ninja-build git python3                    # to build
-  libopenmpi-dev openmpi-bin libmetis-dev libeigen3-dev libhdf5-openmpi-dev zlib1g-dev
+  libopenmpi-dev openmpi-bin libmetis-dev libeigen3-dev libblis-serial-dev libhdf5-openmpi-dev zlib1g-dev
   libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   python3-matplotlib python3-numpy python3-h5py        # pictures
   libgtest-dev libbenchmark-dev clang-format-14        # tests

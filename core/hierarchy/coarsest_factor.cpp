@@ -42,6 +42,15 @@ void CoarsestFactor::solve(Eigen::VectorXd& values) const {
   for (Eigen::Index u = 0; u < values.size(); ++u) values[u] = placed[place_[u]];
 }
 
+Eigen::MatrixXd CoarsestFactor::compliance(std::size_t count,
+                                           const StiffnessEntries& directions) const {
+  StiffnessEntries placed;
+  for (const auto& e : directions) placed.emplace_back(e.row(), place_[e.col()], e.value());
+  Eigen::SparseMatrix<double> rows(Eigen::Index(count), place_.size());
+  rows.setFromTriplets(placed.begin(), placed.end());
+  return factor_.compliance(rows);
+}
+
 bool CoarsestFactor::same_places(std::size_t size, const StiffnessEntries& entries) const {
   return place_.size() == Eigen::Index(size) &&
          std::equal(entries.begin(), entries.end(), places_.begin(), places_.end(),

@@ -21,6 +21,8 @@ class CoarsestFactor {
   bool compute_again(std::span<const double> values);
   /// values = K^-1 values, by unknown.
   void solve(Eigen::VectorXd& values) const;
+  /// R K^-1 R^T. directions: entries of R: number of a direction, unknown, value.
+  Eigen::MatrixXd compliance(std::size_t count, const StiffnessEntries& directions) const;
 
  private:
   bool same_places(std::size_t size, const StiffnessEntries& entries) const;

@@ -36,8 +36,8 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
     if (r < std::size_t(communicator.rank())) first_ += std::size_t(counts[r]);
     total_ += std::size_t(counts[r]);
   }
-  // numbers over all ranks; -1: held
-  std::vector<double> number(std::size_t(cells.count()), -1.0);
+  std::vector<double>& number = number_;
+  number.assign(std::size_t(cells.count()), -1.0);
   for (std::size_t u = 0; u < own; ++u) number[u] = double(first_ + u);
   for (const LocalId u : cells.held()) number[std::size_t(u)] = -1.0;
   cells.halo().copy_state(number);
@@ -77,6 +77,16 @@ void CoarsestSolve::solve(std::span<const double> forces, std::span<double> move
   cells_.communicator().sum(std::span<double>(all.data(), total_));
   factor_.solve(all);
   for (Eigen::Index u = 0; u < own; ++u) moves[std::size_t(u)] = all[Eigen::Index(first_) + u];
+}
+
+Eigen::MatrixXd CoarsestSolve::compliance(std::size_t measures,
+                                          const std::vector<Effect>& effects) const {
+  StiffnessEntries entries;
+  for (const Effect& e : effects) {
+    const double number = number_[std::size_t(e.unknown)];
+    if (number >= 0) entries.emplace_back(int(e.measure), int(number), e.value);
+  }
+  return factor_.compliance(measures, of_all(cells_.communicator(), std::move(entries)));
 }
 
 }  // namespace cdca

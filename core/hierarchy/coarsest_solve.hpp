@@ -2,6 +2,7 @@
 /// The coarsest scale, gathered and factored on every rank.
 #pragma once
 
+#include "core/base/effect.hpp"
 #include "core/cells/cell_stiffness.hpp"
 #include "core/hierarchy/coarsest_factor.hpp"
 
@@ -19,10 +20,14 @@ class CoarsestSolve {
   void turn_springs();
   /// moves = K^-1 forces on own cells; 0 on held unknowns. Collective.
   void solve(std::span<const double> forces, std::span<double> moves) const;
+  /// How far forces on each of some measures move all of them; the effects of all ranks on them
+  /// count. The same on every rank. Collective.
+  Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const;
 
  private:
   const CellStiffness& cells_;
-  std::size_t first_ = 0;  ///< of own unknowns among those of all ranks
+  std::vector<double> number_;  ///< of unknowns over all ranks; -1: held
+  std::size_t first_ = 0;       ///< of own unknowns among those of all ranks
   std::size_t total_ = 0;
   CoarsestFactor& factor_;
   std::size_t held_ = 0;              ///< own entries that stand for held unknowns come first,

@@ -21,6 +21,8 @@ class FrontFactor {
   bool factorize(const Eigen::SparseMatrix<double>& lower);
   /// values = K^-1 values.
   void solve(Eigen::VectorXd& values) const;
+  /// R K^-1 R^T. directions: R, a row for each, which may have few entries.
+  Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double>& directions) const;
 
   /// Entries of L that are kept.
   Eigen::Index entries() const { return Eigen::Index(lower_.size()); }

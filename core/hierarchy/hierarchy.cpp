@@ -91,6 +91,9 @@ class Hierarchy::Level final : public Scale {
   }
 
   void turn_springs() { coarsest_->turn_springs(); }
+  Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const {
+    return coarsest_->compliance(measures, effects);
+  }
 
   CoarseParts* parts() const { return parts_.get(); }
   const CellStiffness& stiffness() const { return *cells_; }
@@ -116,6 +119,11 @@ void Hierarchy::LevelDeleter::operator()(Level* level) const { delete level; }
 const Scale& Hierarchy::scale(std::size_t index) const { return *levels_[index]; }
 
 void Hierarchy::turn_springs() { levels_.front()->turn_springs(); }
+
+Eigen::MatrixXd Hierarchy::compliance(std::size_t measures,
+                                      const std::vector<Effect>& effects) const {
+  return levels_.front()->compliance(measures, effects);
+}
 
 std::vector<GlobalId> Hierarchy::plan(const BasisContext& basis) {
   if (is_coarsest(basis.mesh.grid())) return all_own(basis.mesh);

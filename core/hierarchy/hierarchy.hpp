@@ -46,6 +46,8 @@ class Hierarchy final : public Scales {
 
   /// The springs of the cells have turned. Only where one factor moves all cells. Collective.
   void turn_springs();
+  /// As of CoarsestSolve, and only where turn_springs() is. Collective.
+  Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const;
 
   std::size_t count() const override { return levels_.size(); }
   const Scale& scale(std::size_t index) const override;

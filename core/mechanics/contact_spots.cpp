@@ -67,6 +67,33 @@ std::vector<double> ContactSpots::compliances(const ContactPatches& patches,
   return sums;
 }
 
+std::vector<double> ContactSpots::lengths(const ContactPatches& patches,
+                                          Communicator& communicator) const {
+  std::vector<double> sums(patches.patches().size(), 0.0);
+  for (const Spot& spot : spots_) {
+    if (spot.evaluated) sums[spot.patch] += spot.at.weight;
+  }
+  communicator.sum(std::span<double>(sums));
+  return sums;
+}
+
+std::vector<Effect> ContactSpots::effects_on_gaps() const {
+  std::vector<Effect> effects;
+  for (const Spot& spot : spots_) {
+    if (!spot.evaluated) continue;
+    const double s = spot.geometry.uses_stress ? spot.at.compliance : 0.0;
+    const Vec2 axes[] = {spot.geometry.tangent, spot.geometry.normal};
+    for (const FaceFunction& f : spot.at.functions) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const Vec2 gap = (f.jump + s * f.traction).transpose() * axes[axis];
+        for (LocalId k = 0; k < 2; ++k)
+          effects.push_back({2 * spot.patch + axis, f.unknown + k, gap[k]});
+      }
+    }
+  }
+  return effects;
+}
+
 ContactSpots::Fields ContactSpots::fields(std::span<const double> state) const {
   Fields found;
   for (const Spot& spot : spots_) found.push_back(spot.at.field(spot.geometry, state));

@@ -2,6 +2,7 @@
 /// Contact between the faces of the elements of one rank (2.3, and step 5 of 2.4.3).
 #pragma once
 
+#include "core/base/effect.hpp"
 #include "core/mechanics/contact_patches.hpp"
 
 #include <functional>
@@ -25,6 +26,12 @@ class ContactSpots {
   /// Compliance of the body at every patch, where it takes part in the patch's gap, m/Pa.
   /// Collective.
   std::vector<double> compliances(const ContactPatches& patches, Communicator& communicator) const;
+
+  /// Length over which every patch's springs act, m. Collective.
+  std::vector<double> lengths(const ContactPatches& patches, Communicator& communicator) const;
+  /// What this rank's unknowns do to the gaps of patches with the body's share, m; measures are
+  /// 2 p for the gap along the face of patch p, and 2 p + 1 for that across it.
+  std::vector<Effect> effects_on_gaps() const;
 
   /// Jump and stress at every spot.
   using Fields = std::vector<FaceSpot::Field>;

@@ -197,6 +197,29 @@ std::vector<ContactAnswer> FaceBarrier::answers() const {
   return answers;
 }
 
+std::vector<ContactAnswer> FaceBarrier::closed() const {
+  std::vector<ContactAnswer> answers(patches_);
+  for (const Face& face : faces_) {
+    ContactAnswer& a = answers[face.patch] = {};
+    a.state = ContactState::stick;
+    a.normal_spring = face.spec.normal_stiffness;
+    if (face.rubs) a.tangential_spring = face.spec.tangential_stiffness;
+  }
+  return answers;
+}
+
+std::vector<ContactAnswer> FaceBarrier::held_at(const std::vector<ContactGap>& gaps) const {
+  auto answers = closed();
+  for (const Face& face : faces_) {
+    ContactAnswer& a = answers[face.patch];
+    const ContactGap& gap = gaps[face.patch];
+    a.normal_zero = gap.normal * face.across.scale + face.across.compliance * face.touch.second;
+    if (face.rubs)
+      a.tangential_zero = gap.tangential * face.along.scale - face.along.compliance * face.shear;
+  }
+  return answers;
+}
+
 void FaceBarrier::follow(const std::vector<ContactGap>& gaps) {
   for (Face& face : faces_) {
     const ContactGap& gap = gaps[face.patch];

@@ -38,6 +38,12 @@ class FaceBarrier {
   /// Has the last step ended in a new start? Then body and faces are out of balance by any amount.
   bool began_anew() const { return began_anew_; }
 
+  /// What all faces would answer if they were closed and stuck: no spring of a step is stiffer.
+  std::vector<ContactAnswer> closed() const;
+
+  /// Answers with the springs of closed faces which exert at such gaps what the steps have come to.
+  std::vector<ContactAnswer> held_at(const std::vector<ContactGap>& gaps) const;
+
   /// The largest difference between a traction that the steps have come to and what the laws answer
   /// to such gaps, as a part of the largest traction; where all faces are open, of what would close
   /// the widest.

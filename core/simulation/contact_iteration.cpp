@@ -5,6 +5,7 @@
 #include "core/mechanics/face_barrier.hpp"
 #include "core/simulation/contact_solves.hpp"
 #include "core/simulation/creep.hpp"
+#include "core/simulation/face_balance.hpp"
 #include "core/simulation/face_turns.hpp"
 
 #include <sstream>
@@ -69,7 +70,8 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
       model.remember(memory);
       model.state() = state;
     }
-    const auto balance = solves.balance_faces(enough, jams == 1 ? FaceTurns::nearly : 0.0);
+    const auto balance =
+        FaceBalance(model, solves, given, {enough, jams == 1 ? FaceTurns::nearly : 0.0}).find();
     turns.add_to_count(balance.steps);
     note(balance.unbalanced);
     if (balance.found) return solves.slowest();

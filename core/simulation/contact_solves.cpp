@@ -2,7 +2,6 @@
 #include "core/simulation/contact_solves.hpp"
 
 #include "core/base/errors.hpp"
-#include "core/mechanics/face_barrier.hpp"
 #include "core/mechanics/fixed_point_mixing.hpp"
 
 #include <algorithm>
@@ -49,68 +48,8 @@ void ContactSolves::turn_limits(double agreed, double part) {
   }
 }
 
-ContactSolves::Balance ContactSolves::balance_faces(double enough, double near) {
-  constexpr int most = 150;
-  constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  // limits of friction and pressures
-  constexpr double nearly = 1e-4;  // balanced: solves are exact from here on
-  ContactPatches& contact = model_.contact();
-  std::vector<double>& state = model_.state();
-  FaceBarrier faces(contact, model_.contact_spots().compliances(contact, model_.communicator()),
-                    gaps(), model_.grid().smallest_side() / model_.spec().material.young);
-  Balance balance;
-  double left = 1.0;  // of the forces that are out of balance: steps do not go all the way
-  std::vector<double> nearest = state;
-  double least = 1.0;
-  bool built = false;
-  given_.anchor = state;  // lest the faces, each a little pressed, drive loose bodies far apart
-  const auto solve = [&](const std::vector<ContactAnswer>& answers) {
-    for (std::size_t p = 0; p < answers.size(); ++p) contact.patches()[p].now = answers[p];
-    if (!built) model_.renew_stiffness(loosest);
-    built = true;
-    once({1.0, balance.unbalanced > nearly ? of_unbalanced : 0.0});
-    return gaps();
-  };
-  while (!balance.found && balance.steps < most) {
-    ++balance.steps;
-    built = false;
-    const std::vector<double> before = state;
-    const double agree = of_unbalanced * balance.unbalanced;
-    double share = 0.0;
-    try {
-      share = faces.step(solve, std::clamp(agree, of_unbalanced * enough, agreeing));
-    } catch (const SolveError&) {
-      break;  // springs so different that no solve is possible with them
-    }
-    std::vector<double> move = state;
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      state[k] = before[k] + share * (state[k] - before[k]);
-      move[k] = state[k] - given_.anchor[k];
-    }
-    left = faces.began_anew() ? 1.0 : (1 - share) * left + share * slowest_.residual;
-    balance.unbalanced = faces.unbalanced(gaps());
-    if (const double off = std::max(balance.unbalanced, left); off < least) {
-      least = off;
-      nearest = state;
-    }
-    const double told_apart = std::max(enough, rounding(faces.largest_pressure()));
-    balance.found = std::max(balance.unbalanced, left) <= told_apart;
-    if (const double pulled = held_back(move); balance.found && pulled > enough) {
-      given_.anchor = state;
-      left = pulled;
-      balance.found = false;
-    }
-    if (faces.began_anew() && least <= near) break;
-  }
-  given_.anchor.clear();
-  if (!balance.found) {
-    state = nearest;
-    balance.unbalanced = least;
-  }
-  const auto here = gaps();
-  contact.respond(here, contact.limits_at(here));
-  model_.renew_stiffness(loosest);
-  set_forces_of_faces();
-  return balance;
+void ContactSolves::answer(const std::vector<ContactAnswer>& answers) {
+  for (std::size_t p = 0; p < answers.size(); ++p) model_.contact().patches()[p].now = answers[p];
 }
 
 double ContactSolves::held_back(const std::vector<double>& move) const {

@@ -17,15 +17,8 @@ class ContactSolves {
   /// Friction follows the pressure, and the pressure depends on friction: in turns, until they
   /// agree to this part of the largest traction. part: of the solver's tolerance.
   void turn_limits(double agreed, double part);
-  struct Balance {
-    bool found = false;
-    double unbalanced = 1.0;  ///< tractions, as a part of the largest
-    int steps = 0;            ///< each with a stiffness of its own
-  };
-  /// Brings all faces into balance at once (face_barrier.hpp), to this part of the largest
-  /// traction, and leaves springs, states and limits of that balance, or of where they were nearest
-  /// to it. Does not begin anew where it has come as near as this.
-  Balance balance_faces(double enough, double near);
+  /// Patches answer so from now on; their springs count from the next renew_stiffness() on.
+  void answer(const std::vector<ContactAnswer>& answers);
 
   std::vector<ContactGap> gaps() const;
   /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
@@ -41,10 +34,10 @@ class ContactSolves {
   int count() const { return count_; }
   /// Iterations of the slowest so far, and how exact the last one was.
   const SolverReport& slowest() const { return slowest_; }
-
- private:
+  /// given.faces for what the patches answer now.
   void set_forces_of_faces();
 
+ private:
   Model& model_;
   const EquilibriumSolver& solver_;
   double load_factor_;

@@ -13,9 +13,8 @@ namespace {
 
 /// Limits of friction follow the pressures in so many iterations, then only where states settle.
 constexpr int follow_at_once = 20;
-/// Moves shorter than this turn faces one by one; after a few of them faces have jammed.
+/// Moves shorter than this turn faces one by one.
 constexpr double short_move = 0.1;
-constexpr int short_moves = 4;
 constexpr double firmest = 1e-3, weakest = 1e-6;  ///< springs of loose bodies
 constexpr double farthest = 1024;                 ///< that these bodies go, in moves
 
@@ -28,6 +27,11 @@ double balance_after(const SolverReport& solve, double wanted, double enough, do
   return solve.rounded && allowed <= ContactSolves::worst_balance ? allowed : -1.0;
 }
 
+/// Where all faces at once take less than a few turns, they are not waited for.
+FaceTurns::Patience patience_of(const Model& model) {
+  return model.condenses() ? FaceTurns::Patience{1, 6} : FaceTurns::Patience{4, follow_at_once};
+}
+
 }  // namespace
 
 FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const Rule& rule)
@@ -35,6 +39,7 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
       solves_(solves),
       given_(given),
       rule_(rule),
+      patience_(patience_of(model)),
       weak_(drags() ? rule.drag : firmest) {
   // weak springs must not turn small errors into long ways
   if (model.has_weak_springs())
@@ -56,7 +61,8 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
 FaceTurns::End FaceTurns::turn() {
   while (count_ < rule_.most) {
     if (once()) return End::balanced;
-    if (!drags() && (cut_short_ == short_moves || count_ == follow_at_once)) return End::jammed;
+    if (drags()) continue;
+    if (cut_short_ >= patience_.short_moves || count_ == patience_.turns) return End::jammed;
   }
   return End::too_many;
 }

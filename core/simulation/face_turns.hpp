@@ -27,8 +27,13 @@ class FaceTurns {
   static constexpr double nearly = 1e-2;
 
   enum class End { balanced, jammed, too_many };
-  /// Goes on until faces are in balance, or jam: their moves become short again and again.
+  /// Goes on until faces are in balance, or jam: their moves become short again and again, or there
+  /// have been many.
   End turn();
+  /// When faces have jammed: after so many short moves, or turns from the start.
+  struct Patience {
+    int short_moves = 0, turns = 0;
+  };
   /// Springs are those of the faces as they are; after others have moved the model.
   void begin_again();
 
@@ -52,6 +57,7 @@ class FaceTurns {
   ContactSolves& solves_;
   Forces& given_;
   Rule rule_;
+  Patience patience_;
   double part_ = 1.0;  ///< of the solver's tolerance
   double weak_;        ///< springs of bodies
   double unbalanced_ = 1.0, limits_off_ = 1.0, pulled_ = 0.0;

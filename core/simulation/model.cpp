@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -79,6 +80,7 @@ std::vector<ContactSpec> Model::contact_laws() const {
 }
 
 void Model::build_cells(const CellUnknowns::Kept* kept) {
+  condensed_.reset();
   stiffness_cache_.begin_cycle();
   intensity_cache_.begin_cycle();
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_, kept);
@@ -185,6 +187,28 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
       multilevel ? Sweeps::none : Sweeps::one_after_the_other, communicator_, carried);
   if (multilevel) hierarchy_.build({basis(), elastic_, held, weak, faces, carried}, *stiffness_);
   if (hierarchy_.count() > 1) built_springs_ = contact_.springs();
+}
+
+const Model::FacesOfBody& Model::condensed(const std::vector<ContactAnswer>& closed) {
+  if (condensed_) return *condensed_;
+  condensed_.emplace();
+  const auto compliances = spots_.compliances(contact_, communicator_);
+  const auto lengths = spots_.lengths(contact_, communicator_);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> place(2 * closed.size(), none);
+  for (std::size_t p = 0; p < closed.size(); ++p) {
+    const double springs[] = {closed[p].tangential_spring, closed[p].normal_spring};
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(springs[axis] > 0.0)) continue;
+      place[2 * p + std::size_t(axis)] = condensed_->places.size();
+      condensed_->places.push_back({p, axis, lengths[p], compliances[p], springs[axis]});
+    }
+  }
+  auto effects = spots_.effects_on_gaps();
+  std::erase_if(effects, [&](const Effect& e) { return place[e.measure] == none; });
+  for (Effect& e : effects) e.measure = place[e.measure];
+  condensed_->compliance = hierarchy_.compliance(condensed_->places.size(), effects);
+  return *condensed_;
 }
 
 void Model::lay_cracks(CrackRegistry registry) {

@@ -6,6 +6,7 @@
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/hierarchy/hierarchy.hpp"
+#include "core/mechanics/body_at_faces.hpp"
 #include "core/mechanics/contact_spots.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/interaction_integral.hpp"
@@ -108,6 +109,16 @@ class Model {
                                                   const TipChoice& wanted = {}) const;
   /// The scales of the multilevel solver; empty for the other methods.
   const Hierarchy& hierarchy() const { return hierarchy_; }
+  /// The body condensed to the faces of its cracks, for springs that are `closed` now, in the
+  /// answers and in the stiffness.
+  struct FacesOfBody {
+    std::vector<SpringPlace> places;
+    Eigen::MatrixXd compliance;
+  };
+  /// Only where one factor moves all cells; for others it takes too much. Kept until cracks are
+  /// laid. Collective.
+  bool condenses() const { return hierarchy_.count() == 1; }
+  const FacesOfBody& condensed(const std::vector<ContactAnswer>& closed);
   BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
   Rectangle body() const { return {grid_.origin(), grid_.origin() + grid_.size()}; }
   /// Cracks that come nearer than this touch, m.
@@ -179,6 +190,7 @@ class Model {
   bool all_held_ = false;  ///< by weak springs
   double rubbed_ = 0.0;    ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
+  std::optional<FacesOfBody> condensed_;
   std::vector<double> state_;
 };
 

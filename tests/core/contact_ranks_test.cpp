@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Touching faces stick, slip, open and drive wings alike on any number of ranks, with rank borders
 /// along them and across them.
+#include "core/mechanics/face_barrier.hpp"
 #include "core/mechanics/interaction_integral.hpp"
+#include "core/simulation/contact_solves.hpp"
 #include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
 
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 namespace cdca::testing {
@@ -138,6 +141,52 @@ TEST(TurnedSpringsParallel, AreAsIfBuiltAnew) {
     model.build_stiffness(1e-4);
     EXPECT_EQ(turned, answers(model));
     before = turned;
+  }
+}
+
+/// Whatever springs the faces have, between those of open and of closed ones: the condensed body
+/// moves them as the whole one does.
+TEST(CondensedBodyParallel, MovesItsFacesAsTheWholeBody) {
+  constexpr double factor = 0.5;
+  Model model(sheared(), world(), scattered());
+  model.build_stiffness();
+  ASSERT_TRUE(model.condenses());
+  const auto solver = make_solver(model);
+  const std::vector<double> none(model.state().size(), 0.0);
+  Forces given{none, none, none};
+  add_external_forces(model.basis(), model.loads(factor), given.external);
+  ContactSolves solves(model, *solver, factor, given);
+  const auto gaps_of_whole = [&](const std::vector<ContactAnswer>& answers) {
+    solves.answer(answers);
+    model.renew_stiffness(ContactSolves::loosest);
+    solves.once({});
+    return solves.gaps();
+  };
+  const auto body_share = model.contact_spots().compliances(model.contact(), model.communicator());
+  const auto closed = FaceBarrier(model.contact(), body_share, solves.gaps(), 1.0).closed();
+  const auto closed_gaps = gaps_of_whole(closed);
+  const auto& condensed = model.condensed(closed);
+  EXPECT_EQ(condensed.places.size(), 2 * closed.size());
+  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<> power(-8, 0), zero(-1e-6, 1e-6);
+  for (int round = 0; round < 3; ++round) {
+    auto answers = closed;
+    for (ContactAnswer& a : answers) {
+      a.normal_spring *= std::pow(10, power(engine));
+      a.tangential_spring *= std::pow(10, power(engine));
+      a.normal_zero = zero(engine);
+      a.tangential_zero = zero(engine);
+    }
+    const auto found = body.gaps(answers);
+    const auto wanted = gaps_of_whole(answers);
+    double largest = 0.0, off = 0.0;
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      largest = std::max({largest, std::abs(wanted[p].normal), std::abs(wanted[p].tangential)});
+      off = std::max({off, std::abs(found[p].normal - wanted[p].normal),
+                      std::abs(found[p].tangential - wanted[p].tangential)});
+    }
+    EXPECT_LT(off, 1e-8 * largest);
   }
 }
 

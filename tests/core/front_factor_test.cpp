@@ -101,6 +101,26 @@ TEST(FrontFactor, MakesAnewWhatHasChangedOnly) {
   EXPECT_EQ(solved(kept, forces), solved(anew, forces)) << "to the last bit";
 }
 
+TEST(FrontFactor, CompliesAlongDirectionsAsADenseFactorDoes) {
+  const Springs springs(9);
+  const auto lower = springs.lower();
+  FrontFactor factor;
+  factor.lay_fronts(lower);
+  ASSERT_TRUE(factor.factorize(lower));
+  // along one unknown, along a few, along all; one twice, and one along nothing
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(6, springs.size());
+  directions(0, springs.place_of(2, 3)) = 1.0;
+  for (int k = 0; k < 5; ++k) directions(1, springs.place_of(k, k)) = 0.3 * k - 0.5;
+  directions.row(2).setLinSpaced(-1, 2);
+  directions(3, 0) = directions(3, springs.size() - 1) = -2.0;
+  directions.row(4) = directions.row(1);
+  const Eigen::MatrixXd dense(lower), whole = dense.selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd wanted = directions * whole.llt().solve(directions.transpose());
+  const Eigen::MatrixXd found = factor.compliance(directions.sparseView());
+  EXPECT_LT((found - wanted).norm(), 1e-12 * wanted.norm());
+  EXPECT_EQ(found, found.transpose());
+}
+
 TEST(FrontFactor, SaysWhereThereIsNone) {
   const Springs springs(6);
   auto lower = springs.lower();

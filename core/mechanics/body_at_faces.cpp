@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/mechanics/body_at_faces.hpp"
+
+#include "core/base/errors.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace cdca {
+
+BodyAtFaces::BodyAtFaces(const std::vector<SpringPlace>& places, const Eigen::MatrixXd& compliance,
+                         const std::vector<ContactGap>& closed)
+    : places_(places), compliance_(compliance), closed_(closed) {}
+
+void BodyAtFaces::set_springs(const Eigen::VectorXd& springs) {
+  if (springs_.size() == springs.size() && springs_ == springs) return;
+  springs_ = springs;
+  roots_.resize(springs.size());
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const double missing = places_[k].closed() - springs[Eigen::Index(k)];
+    roots_[Eigen::Index(k)] = std::sqrt(places_[k].length * std::max(0.0, missing));
+  }
+  // I - r C r for r^2 = w (k0 - k)
+  Eigen::MatrixXd matrix = -(roots_.asDiagonal() * compliance_ * roots_.asDiagonal());
+  matrix.diagonal().array() += 1.0;
+  if (!factor_.compute(std::move(matrix)))
+    throw SolveError("springs of crack faces hold the body too weakly for a factor.");
+}
+
+std::vector<ContactGap> BodyAtFaces::gaps(const std::vector<ContactAnswer>& answers) {
+  const auto count = Eigen::Index(places_.size());
+  Eigen::VectorXd springs(count), zeros(count), gaps(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const SpringPlace& place = places_[std::size_t(k)];
+    const ContactAnswer& answer = answers[place.patch];
+    const ContactGap& closed = closed_[place.patch];
+    const double scale = 1 + place.compliance * place.stiffness;
+    springs[k] = place.with_body(place.axis == 1 ? answer.normal_spring : answer.tangential_spring);
+    zeros[k] =
+        place.length * springs[k] * (place.axis == 1 ? answer.normal_zero : answer.tangential_zero);
+    gaps[k] = scale * (place.axis == 1 ? closed.normal : closed.tangential);
+  }
+  set_springs(springs);
+  gaps += compliance_ * zeros;
+  Eigen::VectorXd moved = roots_.cwiseProduct(gaps);
+  factor_.solve(moved);
+  gaps += compliance_ * roots_.cwiseProduct(moved);
+  std::vector<ContactGap> found(closed_);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const SpringPlace& place = places_[std::size_t(k)];
+    double& gap = place.axis == 1 ? found[place.patch].normal : found[place.patch].tangential;
+    gap = gaps[k] / (1 + place.compliance * place.stiffness);
+  }
+  return found;
+}
+
+}  // namespace cdca

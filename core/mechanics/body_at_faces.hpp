@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The body condensed to its faces: all that faces need to know of it to settle.
+#pragma once
+
+#include "core/base/dense_factor.hpp"
+#include "core/mechanics/contact_spots.hpp"
+
+#include <vector>
+
+namespace cdca {
+
+/// Where springs act on gaps, one place for each direction of a patch in which it has one.
+struct SpringPlace {
+  std::size_t patch = 0;
+  int axis = 0;             ///< 0: along the face, 1: across
+  double length = 0.0;      ///< m
+  double compliance = 0.0;  ///< of the body in the gap, m/Pa
+  double stiffness = 0.0;   ///< of the law's spring, Pa/m
+  /// Of the law's spring and the body in a row, Pa/m.
+  double closed() const { return with_body(stiffness); }
+  double with_body(double spring) const {
+    return spring > 0.0 ? 1 / (1 / spring + compliance) : 0.0;
+  }
+};
+
+/// Gaps under given loads for any springs that are no stiffer than those of the laws. With G u the
+/// gaps, w lengths, and k0 the springs of the laws, the body with all faces closed has
+///
+///     (K + G^T w k0 G) u0 = f,    C = G (K + G^T w k0 G)^-1 G^T,
+///
+/// and with springs k that exert nothing at gaps z
+///
+///     g = G u0 + C w ((k0 - k) g + k z).
+///
+/// Closed faces hold all loose bodies, so that C is exact; k0 - k is 0 for faces that stay closed.
+class BodyAtFaces {
+ public:
+  /// compliance: C, m^2/N by place; closed: the gaps of all patches with closed faces under the
+  /// loads. Both are borrowed.
+  BodyAtFaces(const std::vector<SpringPlace>& places, const Eigen::MatrixXd& compliance,
+              const std::vector<ContactGap>& closed);
+  /// With these answers of all patches. Throws SolveError where they hold the body too weakly.
+  std::vector<ContactGap> gaps(const std::vector<ContactAnswer>& answers);
+
+ private:
+  void set_springs(const Eigen::VectorXd& springs);
+
+  const std::vector<SpringPlace>& places_;
+  const Eigen::MatrixXd& compliance_;
+  const std::vector<ContactGap>& closed_;
+  Eigen::VectorXd springs_;  ///< k that the factor is for, Pa/m
+  Eigen::VectorXd roots_;    ///< of w (k0 - k)
+  DenseFactor factor_;
+};
+
+}  // namespace cdca

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/simulation/face_balance.hpp"
+
+#include "core/base/errors.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace cdca {
+
+namespace {
+
+constexpr int most_steps = 150;
+constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  ///< limits of friction and pressures
+constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
+
+/// Gaps of the condensed body, on every rank those that the first one has found: ranks that decide
+/// by them must not differ by their rounding.
+std::vector<ContactGap> gaps_of(BodyAtFaces& body, const std::vector<ContactAnswer>& answers,
+                                Communicator& communicator) {
+  Bytes bytes;
+  if (communicator.rank() == 0) {
+    try {
+      pack(bytes, std::span<const ContactGap>(body.gaps(answers)));
+    } catch (const SolveError&) {
+      bytes.clear();
+    }
+  }
+  communicator.broadcast(bytes);
+  if (bytes.empty()) throw SolveError("springs of faces hold the body too weakly for a factor.");
+  return unpack<ContactGap>(bytes);
+}
+
+}  // namespace
+
+FaceBalance::FaceBalance(Model& model, ContactSolves& solves, Forces& given, const Rule& rule)
+    : model_(model),
+      solves_(solves),
+      given_(given),
+      rule_(rule),
+      faces_(model.contact(),
+             model.contact_spots().compliances(model.contact(), model.communicator()),
+             solves.gaps(), model.grid().smallest_side() / model.spec().material.young),
+      nearest_(model.state()) {}
+
+FaceBalance::Found FaceBalance::find() {
+  // lest the faces, each a little pressed, drive loose bodies far apart
+  given_.anchor = model_.state();
+  if (model_.condenses()) {
+    try {
+      go_condensed();
+    } catch (const SolveError&) {
+      model_.state() = given_.anchor;
+      left_ = 1.0;
+    }
+  }
+  while (!now_.found && now_.steps < most_steps && step_whole()) {
+  }
+  given_.anchor.clear();
+  if (!now_.found) {
+    model_.state() = nearest_;
+    now_.unbalanced = least_;
+  }
+  ContactPatches& contact = model_.contact();
+  const auto here = solves_.gaps();
+  contact.respond(here, contact.limits_at(here));
+  model_.renew_stiffness(ContactSolves::loosest);
+  solves_.set_forces_of_faces();
+  return now_;
+}
+
+double FaceBalance::agreement() const {
+  return std::clamp(of_unbalanced * now_.unbalanced, of_unbalanced * rule_.enough, agreeing);
+}
+
+void FaceBalance::go_condensed() {
+  std::vector<ContactGap> at = solves_.gaps();
+  const auto closed = faces_.closed();
+  solves_.answer(closed);
+  model_.renew_stiffness(ContactSolves::loosest);
+  solves_.once({});
+  const auto closed_gaps = solves_.gaps();
+  const Model::FacesOfBody& condensed = model_.condensed(closed);
+  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
+  bool goes_on = true;
+  while (goes_on && now_.steps < most_steps) {
+    ++now_.steps;
+    std::vector<ContactGap> there = at;
+    double share = 0.0;
+    try {
+      share = faces_.step(
+          [&](const auto& answers) {
+            return there = gaps_of(body, answers, model_.communicator());
+          },
+          agreement());
+    } catch (const SolveError&) {
+      break;
+    }
+    for (std::size_t p = 0; p < at.size(); ++p) {
+      at[p].normal += share * (there[p].normal - at[p].normal);
+      at[p].tangential += share * (there[p].tangential - at[p].tangential);
+    }
+    left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_;
+    now_.unbalanced = faces_.unbalanced(at);
+    goes_on = off() > rule_.enough && !(faces_.began_anew() && off() <= rule_.near);
+  }
+  // the displacements that go with these gaps
+  solves_.answer(faces_.held_at(at));
+  solves_.once({});
+  left_ = std::max(left_, solves_.slowest().residual);
+  judge();
+}
+
+bool FaceBalance::step_whole() {
+  ++now_.steps;
+  std::vector<double>& state = model_.state();
+  const std::vector<double> before = state;
+  bool built = false;
+  const auto solve = [&](const std::vector<ContactAnswer>& answers) {
+    solves_.answer(answers);
+    if (!built) model_.renew_stiffness(ContactSolves::loosest);
+    built = true;
+    solves_.once({1.0, now_.unbalanced > nearly ? of_unbalanced : 0.0});
+    return solves_.gaps();
+  };
+  double share = 0.0;
+  try {
+    share = faces_.step(solve, agreement());
+  } catch (const SolveError&) {
+    return false;  // springs so different that no solve is possible with them
+  }
+  for (std::size_t k = 0; k < state.size(); ++k)
+    state[k] = before[k] + share * (state[k] - before[k]);
+  left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_ + share * solves_.slowest().residual;
+  judge();
+  return !faces_.began_anew() || least_ > rule_.near;
+}
+
+void FaceBalance::judge() {
+  const std::vector<double>& state = model_.state();
+  now_.unbalanced = faces_.unbalanced(solves_.gaps());
+  if (off() < least_) {
+    least_ = off();
+    nearest_ = state;
+  }
+  const double told_apart = std::max(rule_.enough, solves_.rounding(faces_.largest_pressure()));
+  now_.found = off() <= told_apart;
+  std::vector<double> move = state;
+  for (std::size_t k = 0; k < state.size(); ++k) move[k] -= given_.anchor[k];
+  if (const double pulled = solves_.held_back(move); now_.found && pulled > rule_.enough) {
+    given_.anchor = state;
+    left_ = pulled;
+    now_.found = false;
+  }
+}
+
+}  // namespace cdca

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// All faces brought into balance at once.
+#pragma once
+
+#include "core/mechanics/face_barrier.hpp"
+#include "core/simulation/contact_solves.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace cdca {
+
+/// Goes with the steps of FaceBarrier to an equilibrium: as far as possible with the body condensed
+/// to its faces, then with all of it. given.anchor is set on the way.
+class FaceBalance {
+ public:
+  struct Rule {
+    double enough = 0.0;  ///< unbalanced tractions that are left, as a part of the largest
+    double near = 0.0;    ///< the same: where steps are stuck this near, they do not begin anew
+  };
+  FaceBalance(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
+
+  struct Found {
+    bool found = false;
+    double unbalanced = 1.0;  ///< tractions, as a part of the largest
+    int steps = 0;            ///< each with springs of its own
+  };
+  /// Leaves springs, states and limits of that balance, or of where faces were nearest to it.
+  /// Collective.
+  Found find();
+
+ private:
+  /// As far as it goes with the body condensed to its faces, from where faces are balanced or not.
+  void go_condensed();
+  /// One step with the whole body. Returns whether it is of use to go on.
+  bool step_whole();
+  /// Whether the state at hand is the one that is looked for.
+  void judge();
+  double off() const { return std::max(now_.unbalanced, left_); }
+  double agreement() const;
+
+  Model& model_;
+  ContactSolves& solves_;
+  Forces& given_;
+  Rule rule_;
+  FaceBarrier faces_;
+  Found now_;
+  double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way
+  double least_ = 1.0;
+  std::vector<double> nearest_;  ///< state
+};
+
+}  // namespace cdca
