@@ -7,9 +7,9 @@ usage() {
 usage: scripts/test.sh [--all]
 
 Installs what is missing, builds with warnings as errors (into build/) and runs the tests through CTest,
-the MPI ones on 1, 2, 3 and 4 ranks; then builds core alone, without MPI (into build-core/), and runs its tests.
+the MPI ones on 1, 2, 3 and 4 ranks; then configures core alone, without MPI (into build-core/).
 
-  --all       also the tests labelled "slow"
+  --all       also the tests labelled "slow"; and builds core alone and runs its tests
   -h, --help  this text
 
 Exit status: 0 all passed, 1 something failed, 2 wrong option.
@@ -54,9 +54,12 @@ needed() {
     summary
   fi
 }
-# build <folder> [<cmake argument>...]
+# configure, build <folder> [<cmake argument>...]
+configure() {
+  configure_into "$@" -DCDCA_WARNINGS_AS_ERRORS=ON -DBUILD_TESTING=ON
+}
 build() {
-  configure_into "$@" -DCDCA_WARNINGS_AS_ERRORS=ON -DBUILD_TESTING=ON && build_in "$1"
+  configure "$@" && build_in "$1"
 }
 # run_tests <folder> [<label to leave out>...]
 run_tests() {
@@ -70,6 +73,11 @@ run_tests() {
 needed set-up bash scripts/setup.sh
 needed build build build
 step tests run_tests build ${skip:+"$skip"}
-step core-only-build build build-core -DCDCA_WITH_MPI=OFF
-step core-only-tests run_tests build-core house ${skip:+"$skip"}
+if [[ -n $skip ]]; then
+  # its objects would be those of the build above, where core and its tests are linked without MPI
+  step core-only-configuration configure build-core -DCDCA_WITH_MPI=OFF
+else
+  step core-only-build build build-core -DCDCA_WITH_MPI=OFF
+  step core-only-tests run_tests build-core house
+fi
 summary

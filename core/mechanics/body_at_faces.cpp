@@ -17,8 +17,9 @@ void BodyAtFaces::set_springs(const Eigen::VectorXd& springs) {
   springs_ = springs;
   roots_.resize(springs.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    const double missing = places_[k].closed() - springs[Eigen::Index(k)];
-    roots_[Eigen::Index(k)] = std::sqrt(places_[k].length * std::max(0.0, missing));
+    const SpringPlace& place = places_[k];
+    const double missing = place.with_body(place.stiffness) - springs[Eigen::Index(k)];
+    roots_[Eigen::Index(k)] = std::sqrt(place.length * std::max(0.0, missing));
   }
   // I - r C r for r^2 = w (k0 - k)
   Eigen::MatrixXd matrix = -(roots_.asDiagonal() * compliance_ * roots_.asDiagonal());
@@ -41,10 +42,18 @@ std::vector<ContactGap> BodyAtFaces::gaps(const std::vector<ContactAnswer>& answ
     gaps[k] = scale * (place.axis == 1 ? closed.normal : closed.tangential);
   }
   set_springs(springs);
-  gaps += compliance_ * zeros;
-  Eigen::VectorXd moved = roots_.cwiseProduct(gaps);
-  factor_.solve(moved);
-  gaps += compliance_ * roots_.cwiseProduct(moved);
+  gaps.noalias() += compliance_.selfadjointView<Eigen::Lower>() * zeros;
+  // e = r g with (I - r C r) e = r (G u0 + C w k z)
+  Eigen::VectorXd scaled = roots_.cwiseProduct(gaps);
+  factor_.solve(scaled);
+  const Eigen::VectorXd missing = roots_.cwiseProduct(scaled);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (roots_[k] > 0.0) {
+      gaps[k] = scaled[k] / roots_[k];
+    } else {
+      gaps[k] += compliance_.col(k).dot(missing);
+    }
+  }
   std::vector<ContactGap> found(closed_);
   for (Eigen::Index k = 0; k < count; ++k) {
     const SpringPlace& place = places_[std::size_t(k)];

@@ -9,20 +9,6 @@
 
 namespace cdca {
 
-/// Where springs act on gaps, one place for each direction of a patch in which it has one.
-struct SpringPlace {
-  std::size_t patch = 0;
-  int axis = 0;             ///< 0: along the face, 1: across
-  double length = 0.0;      ///< m
-  double compliance = 0.0;  ///< of the body in the gap, m/Pa
-  double stiffness = 0.0;   ///< of the law's spring, Pa/m
-  /// Of the law's spring and the body in a row, Pa/m.
-  double closed() const { return with_body(stiffness); }
-  double with_body(double spring) const {
-    return spring > 0.0 ? 1 / (1 / spring + compliance) : 0.0;
-  }
-};
-
 /// Gaps under given loads for any springs that are no stiffer than those of the laws. With G u the
 /// gaps, w lengths, and k0 the springs of the laws, the body with all faces closed has
 ///

@@ -2,6 +2,8 @@
 #include "core/mechanics/contact_spots.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace cdca {
 
@@ -67,27 +69,39 @@ std::vector<double> ContactSpots::compliances(const ContactPatches& patches,
   return sums;
 }
 
-std::vector<double> ContactSpots::lengths(const ContactPatches& patches,
-                                          Communicator& communicator) const {
-  std::vector<double> sums(patches.patches().size(), 0.0);
+std::vector<SpringPlace> ContactSpots::spring_places(const std::vector<ContactAnswer>& answers,
+                                                     const ContactPatches& patches,
+                                                     Communicator& communicator) const {
+  std::vector<double> lengths(answers.size(), 0.0);
   for (const Spot& spot : spots_) {
-    if (spot.evaluated) sums[spot.patch] += spot.at.weight;
+    if (spot.evaluated) lengths[spot.patch] += spot.at.weight;
   }
-  communicator.sum(std::span<double>(sums));
-  return sums;
+  communicator.sum(std::span<double>(lengths));
+  const auto shares = compliances(patches, communicator);
+  std::vector<SpringPlace> places;
+  for (std::size_t p = 0; p < answers.size(); ++p) {
+    const double springs[] = {answers[p].tangential_spring, answers[p].normal_spring};
+    for (int axis = 0; axis < 2; ++axis) {
+      if (springs[axis] > 0.0) places.push_back({p, axis, lengths[p], shares[p], springs[axis]});
+    }
+  }
+  return places;
 }
 
-std::vector<Effect> ContactSpots::effects_on_gaps() const {
+std::vector<Effect> ContactSpots::effects_on(const std::vector<SpringPlace>& places) const {
+  std::map<std::pair<std::size_t, int>, std::size_t> numbers;
+  for (std::size_t k = 0; k < places.size(); ++k) numbers[{places[k].patch, places[k].axis}] = k;
   std::vector<Effect> effects;
   for (const Spot& spot : spots_) {
     if (!spot.evaluated) continue;
     const double s = spot.geometry.uses_stress ? spot.at.compliance : 0.0;
-    const Vec2 axes[] = {spot.geometry.tangent, spot.geometry.normal};
-    for (const FaceFunction& f : spot.at.functions) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const Vec2 gap = (f.jump + s * f.traction).transpose() * axes[axis];
-        for (LocalId k = 0; k < 2; ++k)
-          effects.push_back({2 * spot.patch + axis, f.unknown + k, gap[k]});
+    const Vec2 directions[] = {spot.geometry.tangent, spot.geometry.normal};
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto place = numbers.find({spot.patch, axis});
+      if (place == numbers.end()) continue;
+      for (const FaceFunction& f : spot.at.functions) {
+        const Vec2 gap = (f.jump + s * f.traction).transpose() * directions[axis];
+        for (LocalId k = 0; k < 2; ++k) effects.push_back({place->second, f.unknown + k, gap[k]});
       }
     }
   }

@@ -10,6 +10,19 @@
 
 namespace cdca {
 
+/// A direction of a patch in which it has a spring.
+struct SpringPlace {
+  std::size_t patch = 0;
+  int axis = 0;             ///< 0: along the face, 1: across
+  double length = 0.0;      ///< over which it acts, m
+  double compliance = 0.0;  ///< of the body in the gap, m/Pa
+  double stiffness = 0.0;   ///< of the spring, Pa/m
+  /// Of a spring and the body in a row, Pa/m.
+  double with_body(double spring) const { return spring > 0.0 ? 1 / (1 / spring + compliance) : 0; }
+
+  bool operator==(const SpringPlace&) const = default;
+};
+
 /// The places where the springs of the patches act, one for each.
 class ContactSpots {
  public:
@@ -27,11 +40,12 @@ class ContactSpots {
   /// Collective.
   std::vector<double> compliances(const ContactPatches& patches, Communicator& communicator) const;
 
-  /// Length over which every patch's springs act, m. Collective.
-  std::vector<double> lengths(const ContactPatches& patches, Communicator& communicator) const;
-  /// What this rank's unknowns do to the gaps of patches with the body's share, m; measures are
-  /// 2 p for the gap along the face of patch p, and 2 p + 1 for that across it.
-  std::vector<Effect> effects_on_gaps() const;
+  /// Where patches that answer so have springs. Collective.
+  std::vector<SpringPlace> spring_places(const std::vector<ContactAnswer>& answers,
+                                         const ContactPatches& patches,
+                                         Communicator& communicator) const;
+  /// What this rank's unknowns do to the gaps at these places with the body's share, m.
+  std::vector<Effect> effects_on(const std::vector<SpringPlace>& places) const;
 
   /// Jump and stress at every spot.
   using Fields = std::vector<FaceSpot::Field>;

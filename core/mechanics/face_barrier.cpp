@@ -68,6 +68,7 @@ double FaceBarrier::Face::zero_along(double barrier) const {
 }
 
 double FaceBarrier::Face::limit_of(double pressure, double friction_share) const {
+  if (given >= 0.0) return given;
   // open faces have no cohesion
   const double pressed = across.compliance * touch.second;
   const double cohesion = spec.cohesion * pressed / (pressed + touch.first);
@@ -81,7 +82,7 @@ bool FaceBarrier::suits(const ContactPatches& patches) {
 }
 
 FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double>& compliances,
-                         const std::vector<ContactGap>& gaps, double softness)
+                         const std::vector<ContactGap>& gaps, double softness, Limits limits)
     : patches_(patches.patches().size()), softness_(softness) {
   double largest = 0.0, widest = 0.0;
   for (std::size_t k = 0; k < patches.patches().size(); ++k) {
@@ -98,6 +99,10 @@ FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double
     face.across = law(spec.normal_stiffness);
     face.rubs = spec.law == ContactLaw::coulomb && spec.tangential_stiffness > 0.0 &&
                 (spec.friction > 0.0 || spec.cohesion > 0.0);
+    if (limits == Limits::stay) {
+      face.given = patch.limit;
+      face.rubs = face.rubs && patch.limit > 0.0;
+    }
     if (face.rubs) face.along = law(spec.tangential_stiffness);
     largest = std::max(largest, -patch.now.normal);
     widest = std::max(widest, std::abs(gaps[k].normal * face.across.scale));
@@ -369,7 +374,8 @@ double FaceBarrier::unbalanced(const std::vector<ContactGap>& gaps) const {
   for (const Face& face : faces_) {
     const ContactGap& gap = gaps[face.patch];
     widest = std::max(widest, gap.normal);
-    const ContactAnswer a = contact_answer(face.spec, 0.0, gap, limit_at(face.spec, gap.normal));
+    const double limit = face.given >= 0.0 ? face.given : limit_at(face.spec, gap.normal);
+    const ContactAnswer a = contact_answer(face.spec, 0.0, gap, limit);
     most = std::max(
         {most, std::abs(a.normal + face.touch.second), std::abs(a.tangential - face.shear)});
     largest = std::max({largest, std::abs(a.normal), std::abs(a.tangential)});

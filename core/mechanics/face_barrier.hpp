@@ -22,10 +22,13 @@ class FaceBarrier {
  public:
   /// Can all these faces be brought into balance so? Not cohesive ones, which soften.
   static bool suits(const ContactPatches& patches);
+  /// What limits of friction do.
+  enum class Limits { follow_pressures, stay };
   /// compliances: of the body at every patch, m/Pa; gaps: of the state to start from; softness: of
   /// the body over a length like that of a patch, m/Pa. There must be no cohesive faces.
   FaceBarrier(const ContactPatches& patches, const std::vector<double>& compliances,
-              const std::vector<ContactGap>& gaps, double softness);
+              const std::vector<ContactGap>& gaps, double softness,
+              Limits limits = Limits::follow_pressures);
 
   /// Gaps of a state in which faces answer so, by patch. The springs of the answers are the same in
   /// all solves of a step.
@@ -77,6 +80,7 @@ class FaceBarrier {
     Pair touch;                ///< opening and pressure
     Pair forwards, backwards;  ///< slips, and what is left to the limit
     double limit = 0.0;        ///< Pa
+    double given = -1.0;       ///< limit that stays, Pa; less than 0: it follows the pressure
     double shear = 0.0;        ///< tangential traction, Pa
     double to_shear = 0.0;
     double spring_across() const;  ///< Pa/m, with the body's share

@@ -15,6 +15,9 @@ namespace cdca {
 namespace {
 
 constexpr int most_creeping = 600;  ///< turns of creep
+/// With friction most steps of all faces that are stuck more often are stuck for good. Creep is as
+/// cheap with a condensed body, and comes through.
+constexpr int few_restarts = 2;
 
 void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
   model.stiffness().clear_held(state);
@@ -70,8 +73,10 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
       model.remember(memory);
       model.state() = state;
     }
-    const auto balance =
-        FaceBalance(model, solves, given, {enough, jams == 1 ? FaceTurns::nearly : 0.0}).find();
+    FaceBalance::Rule rule{enough};
+    if (jams == 1) rule.near = FaceTurns::nearly;
+    if (jams == 1 && model.condenses()) rule.most_restarts = few_restarts;
+    const auto balance = FaceBalance(model, solves, given, rule).find();
     turns.add_to_count(balance.steps);
     note(balance.unbalanced);
     if (balance.found) return solves.slowest();

@@ -2,6 +2,7 @@
 #include "core/simulation/creep.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/simulation/face_balance.hpp"
 #include "core/simulation/face_turns.hpp"
 
 #include <algorithm>
@@ -21,7 +22,13 @@ struct DragStep {
 DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule) {
   try {
     FaceTurns turns(model, solves, given, rule);
-    const bool balanced = turns.turn() == FaceTurns::End::balanced;
+    const FaceTurns::End end = turns.turn();
+    bool balanced = end == FaceTurns::End::balanced;
+    if (end == FaceTurns::End::jammed) {
+      const auto found = FaceBalance(model, solves, given, {rule.enough, 0.0, rule.drag}).find();
+      turns.take(found.unbalanced);
+      balanced = found.found;
+    }
     return {balanced, turns.count(), turns.limits_off(), turns.pulled(), turns.limits_agree()};
   } catch (const SolveError&) {
     return {};  // springs of faces so different that no solve is exact; more drag helps here, too

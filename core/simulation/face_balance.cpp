@@ -38,33 +38,36 @@ FaceBalance::FaceBalance(Model& model, ContactSolves& solves, Forces& given, con
       solves_(solves),
       given_(given),
       rule_(rule),
+      weak_(rule.drag > 0.0 ? rule.drag : ContactSolves::loosest),
       faces_(model.contact(),
              model.contact_spots().compliances(model.contact(), model.communicator()),
-             solves.gaps(), model.grid().smallest_side() / model.spec().material.young),
+             solves.gaps(), model.grid().smallest_side() / model.spec().material.young,
+             rule.drag > 0.0 ? FaceBarrier::Limits::stay : FaceBarrier::Limits::follow_pressures),
       nearest_(model.state()) {}
 
 FaceBalance::Found FaceBalance::find() {
   // lest the faces, each a little pressed, drive loose bodies far apart
-  given_.anchor = model_.state();
+  if (!drags()) given_.anchor = model_.state();
   if (model_.condenses()) {
     try {
       go_condensed();
     } catch (const SolveError&) {
-      model_.state() = given_.anchor;
+      model_.state() = nearest_;
       left_ = 1.0;
     }
   }
-  while (!now_.found && now_.steps < most_steps && step_whole()) {
+  while (!now_.found && now_.steps < most_steps && restarts_ <= rule_.most_restarts &&
+         step_whole()) {
   }
-  given_.anchor.clear();
+  if (!drags()) given_.anchor.clear();
   if (!now_.found) {
     model_.state() = nearest_;
     now_.unbalanced = least_;
   }
   ContactPatches& contact = model_.contact();
   const auto here = solves_.gaps();
-  contact.respond(here, contact.limits_at(here));
-  model_.renew_stiffness(ContactSolves::loosest);
+  contact.respond(here, drags() ? contact.limits() : contact.limits_at(here));
+  model_.renew_stiffness(weak_);
   solves_.set_forces_of_faces();
   return now_;
 }
@@ -77,11 +80,13 @@ void FaceBalance::go_condensed() {
   std::vector<ContactGap> at = solves_.gaps();
   const auto closed = faces_.closed();
   solves_.answer(closed);
-  model_.renew_stiffness(ContactSolves::loosest);
+  model_.renew_stiffness(weak_);
   solves_.once({});
   const auto closed_gaps = solves_.gaps();
   const Model::FacesOfBody& condensed = model_.condensed(closed);
   BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
+  auto nearest = faces_.held_at(at);
+  double least = 1.0;
   bool goes_on = true;
   while (goes_on && now_.steps < most_steps) {
     ++now_.steps;
@@ -102,12 +107,16 @@ void FaceBalance::go_condensed() {
     }
     left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_;
     now_.unbalanced = faces_.unbalanced(at);
-    goes_on = off() > rule_.enough && !(faces_.began_anew() && off() <= rule_.near);
+    if (off() < least) {
+      least = off();
+      nearest = faces_.held_at(at);
+    }
+    goes_on = least > rule_.enough && is_of_use_to_go_on(least);
   }
   // the displacements that go with these gaps
-  solves_.answer(faces_.held_at(at));
+  solves_.answer(nearest);
   solves_.once({});
-  left_ = std::max(left_, solves_.slowest().residual);
+  left_ = std::max(least, solves_.slowest().residual);
   judge();
 }
 
@@ -118,7 +127,7 @@ bool FaceBalance::step_whole() {
   bool built = false;
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     solves_.answer(answers);
-    if (!built) model_.renew_stiffness(ContactSolves::loosest);
+    if (!built) model_.renew_stiffness(weak_);
     built = true;
     solves_.once({1.0, now_.unbalanced > nearly ? of_unbalanced : 0.0});
     return solves_.gaps();
@@ -133,7 +142,12 @@ bool FaceBalance::step_whole() {
     state[k] = before[k] + share * (state[k] - before[k]);
   left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_ + share * solves_.slowest().residual;
   judge();
-  return !faces_.began_anew() || least_ > rule_.near;
+  return is_of_use_to_go_on(least_);
+}
+
+bool FaceBalance::is_of_use_to_go_on(double least) {
+  if (!faces_.began_anew()) return true;
+  return ++restarts_ <= rule_.most_restarts && least > rule_.near;
 }
 
 void FaceBalance::judge() {
@@ -145,6 +159,7 @@ void FaceBalance::judge() {
   }
   const double told_apart = std::max(rule_.enough, solves_.rounding(faces_.largest_pressure()));
   now_.found = off() <= told_apart;
+  if (drags()) return;
   std::vector<double> move = state;
   for (std::size_t k = 0; k < state.size(); ++k) move[k] -= given_.anchor[k];
   if (const double pulled = solves_.held_back(move); now_.found && pulled > rule_.enough) {

@@ -11,12 +11,15 @@
 namespace cdca {
 
 /// Goes with the steps of FaceBarrier to an equilibrium: as far as possible with the body condensed
-/// to its faces, then with all of it. given.anchor is set on the way.
+/// to its faces, then with all of it. Without drag, given.anchor is set on the way.
 class FaceBalance {
  public:
   struct Rule {
     double enough = 0.0;  ///< unbalanced tractions that are left, as a part of the largest
     double near = 0.0;    ///< the same: where steps are stuck this near, they do not begin anew
+    /// As of FaceTurns: with drag, given.anchor and limits of friction stay what they are.
+    double drag = 0.0;
+    int most_restarts = 100;  ///< of steps that are stuck
   };
   FaceBalance(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
 
@@ -37,16 +40,21 @@ class FaceBalance {
   /// Whether the state at hand is the one that is looked for.
   void judge();
   double off() const { return std::max(now_.unbalanced, left_); }
+  /// After a step that has not found it. least: unbalanced so far.
+  bool is_of_use_to_go_on(double least);
   double agreement() const;
+  bool drags() const { return rule_.drag > 0.0; }
 
   Model& model_;
   ContactSolves& solves_;
   Forces& given_;
   Rule rule_;
+  double weak_;  ///< springs of bodies
   FaceBarrier faces_;
   Found now_;
   double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way
   double least_ = 1.0;
+  int restarts_ = 0;
   std::vector<double> nearest_;  ///< state
 };
 

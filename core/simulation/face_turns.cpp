@@ -28,8 +28,10 @@ double balance_after(const SolverReport& solve, double wanted, double enough, do
 }
 
 /// Where all faces at once take less than a few turns, they are not waited for.
-FaceTurns::Patience patience_of(const Model& model) {
-  return model.condenses() ? FaceTurns::Patience{1, 6} : FaceTurns::Patience{4, follow_at_once};
+FaceTurns::Patience patience_of(const Model& model, bool drags) {
+  constexpr int forever = std::numeric_limits<int>::max();
+  if (model.condenses()) return {1, 6};
+  return drags ? FaceTurns::Patience{forever, forever} : FaceTurns::Patience{4, follow_at_once};
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
       solves_(solves),
       given_(given),
       rule_(rule),
-      patience_(patience_of(model)),
+      patience_(patience_of(model, drags())),
       weak_(drags() ? rule.drag : firmest) {
   // weak springs must not turn small errors into long ways
   if (model.has_weak_springs())
@@ -61,7 +63,6 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
 FaceTurns::End FaceTurns::turn() {
   while (count_ < rule_.most) {
     if (once()) return End::balanced;
-    if (drags()) continue;
     if (cut_short_ >= patience_.short_moves || count_ == patience_.turns) return End::jammed;
   }
   return End::too_many;
@@ -71,6 +72,14 @@ void FaceTurns::begin_again() {
   model_.renew_stiffness(weak_);
   unbalanced_ = nearly;
   cut_short_ = 0;
+}
+
+void FaceTurns::take(double unbalanced) {
+  const auto change = model_.contact().respond(solves_.gaps(), model_.contact().limits());
+  unbalanced_ = unbalanced;
+  limits_off_ = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
+  pulled_ = solves_.held_back(from_anchor());
+  balanced_to_ = std::max(rule_.enough, solves_.rounding(change.largest));
 }
 
 bool FaceTurns::once() {

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -158,6 +157,7 @@ void Model::let_slip() {
 void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, nullptr); }
 
 void Model::renew_stiffness(double weak_share) {
+  weak_share_ = weak_share;
   if (hierarchy_.count() == 1) {
     ++stiffness_version_;
     stiffness_->turn_springs(mesh_, unknowns_, *elements_, springs(weak_share));
@@ -176,6 +176,7 @@ std::vector<GlobalId> Model::turned_elements() const {
 
 void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   ++stiffness_version_;
+  weak_share_ = weak_share;
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);
   const FaceSprings* faces = contact_.empty() ? nullptr : &contact_;
@@ -190,24 +191,13 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
 }
 
 const Model::FacesOfBody& Model::condensed(const std::vector<ContactAnswer>& closed) {
-  if (condensed_) return *condensed_;
-  condensed_.emplace();
-  const auto compliances = spots_.compliances(contact_, communicator_);
-  const auto lengths = spots_.lengths(contact_, communicator_);
-  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> place(2 * closed.size(), none);
-  for (std::size_t p = 0; p < closed.size(); ++p) {
-    const double springs[] = {closed[p].tangential_spring, closed[p].normal_spring};
-    for (int axis = 0; axis < 2; ++axis) {
-      if (!(springs[axis] > 0.0)) continue;
-      place[2 * p + std::size_t(axis)] = condensed_->places.size();
-      condensed_->places.push_back({p, axis, lengths[p], compliances[p], springs[axis]});
-    }
-  }
-  auto effects = spots_.effects_on_gaps();
-  std::erase_if(effects, [&](const Effect& e) { return place[e.measure] == none; });
-  for (Effect& e : effects) e.measure = place[e.measure];
-  condensed_->compliance = hierarchy_.compliance(condensed_->places.size(), effects);
+  FacesOfBody now{
+      spots_.spring_places(closed, contact_, communicator_), {}, weak_share_, all_held_};
+  const bool same = condensed_ && condensed_->places == now.places &&
+                    condensed_->all_held == all_held_ && condensed_->weak_share == weak_share_;
+  if (same) return *condensed_;
+  now.compliance = hierarchy_.compliance(now.places.size(), spots_.effects_on(now.places));
+  condensed_ = std::move(now);
   return *condensed_;
 }
 

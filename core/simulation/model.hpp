@@ -109,15 +109,17 @@ class Model {
                                                   const TipChoice& wanted = {}) const;
   /// The scales of the multilevel solver; empty for the other methods.
   const Hierarchy& hierarchy() const { return hierarchy_; }
-  /// The body condensed to the faces of its cracks, for springs that are `closed` now, in the
-  /// answers and in the stiffness.
+  /// The body condensed to the faces of its cracks.
   struct FacesOfBody {
     std::vector<SpringPlace> places;
     Eigen::MatrixXd compliance;
+    double weak_share = 0.0;
+    bool all_held = false;
   };
-  /// Only where one factor moves all cells; for others it takes too much. Kept until cracks are
-  /// laid. Collective.
+  /// Whether it can be: only where one factor moves all cells; elsewhere it would take too much.
   bool condenses() const { return hierarchy_.count() == 1; }
+  /// closed: answers with springs of closed faces, which are in the stiffness. Kept until these
+  /// springs, or others in the stiffness, are no longer the same. Collective.
   const FacesOfBody& condensed(const std::vector<ContactAnswer>& closed);
   BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
   Rectangle body() const { return {grid_.origin(), grid_.origin() + grid_.size()}; }
@@ -191,6 +193,7 @@ class Model {
   double rubbed_ = 0.0;    ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
   std::optional<FacesOfBody> condensed_;
+  double weak_share_ = 0.0;  ///< in the stiffness
   std::vector<double> state_;
 };
 
