@@ -139,8 +139,8 @@ write_facts() { # <elapsed> <used by all> <used by us>
   echo "processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)"
   echo "cache=$(awk '{ print $1 / 1024 " MB" }' /sys/devices/system/cpu/cpu0/cache/index3/size 2>/dev/null || true)"
   echo "compiler=$("$compiler" --version | head -n 1)"
-  echo "blas=$(ldd "build/bin/$(program race)" 2>/dev/null | sed -n 's/.*libblas[^ ]* => \([^ ]*\).*/\1/p' |
-    xargs -r realpath | sed 's|.*/\([^/]*/[^/]*\)$|\1|' || true)"
+  echo "blas=$(ldd "build/bin/$(program race)" 2>/dev/null | sed -n 's/.*libbl[ai]s[^ ]* => \([^ ]*\).*/\1/p' |
+    xargs -r realpath | sed 's|.*/\([^/]*/[^/]*\)$|\1|' | paste -sd+ || true)"
   echo "runs=$runs"
   echo "rounds=$rounds"
   awk -v t="$1" -v others=$(($2 - $3)) 'BEGIN { printf "others=%.2f\n", (others > 0 ? others : 0) / t }'

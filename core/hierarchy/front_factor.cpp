@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 namespace cdca {
 
@@ -223,60 +222,6 @@ void FrontFactor::solve(Eigen::VectorXd& values) const {
                 l.col(j).segment(j + 1, f->count - j - 1).dot(own.tail(f->count - j - 1));
     }
   }
-}
-
-Eigen::MatrixXd FrontFactor::compliance(const Eigen::SparseMatrix<double>& directions) const {
-  // L^-1 R^T front by front: what a front passes on to the next has the directions met so far only
-  struct Passed {
-    std::vector<int> directions;
-    Eigen::MatrixXd rows;
-  };
-  std::vector<Passed> passed(fronts_.size());
-  std::vector<int> place(std::size_t(directions.rows()), -1);
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(directions.rows(), directions.rows());
-  for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    const Front& front = fronts_[f];
-    std::vector<int>& met = passed[f].directions;
-    const auto meet = [&](int direction) {
-      if (std::exchange(place[std::size_t(direction)], 0) < 0) met.push_back(direction);
-    };
-    for (int k = 0; k < front.count; ++k) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(directions, front.first + k); it; ++it)
-        meet(int(it.row()));
-    }
-    for (const int b : taken_up_[f]) std::ranges::for_each(passed[std::size_t(b)].directions, meet);
-    if (met.empty()) continue;
-    std::ranges::sort(met);
-    for (std::size_t k = 0; k < met.size(); ++k) place[std::size_t(met[k])] = int(k);
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(front.rows(), Eigen::Index(met.size()));
-    for (int k = 0; k < front.count; ++k) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(directions, front.first + k); it; ++it)
-        all(k, place[std::size_t(it.row())]) = it.value();
-    }
-    for (const int b : taken_up_[f]) {
-      const Passed before = std::exchange(passed[std::size_t(b)], {});
-      const auto& to = fronts_[std::size_t(b)].rows_in_next;
-      for (Eigen::Index c = 0; c < before.rows.cols(); ++c) {
-        auto column = all.col(place[std::size_t(before.directions[std::size_t(c)])]);
-        for (Eigen::Index r = 0; r < before.rows.rows(); ++r)
-          column[to[std::size_t(r)]] += before.rows(r, c);
-      }
-    }
-    const ConstDense l = lower_of(front);
-    auto own = all.topRows(front.count);
-    l.topRows(front.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
-    passed[f].rows = all.bottomRows(all.rows() - front.count);
-    passed[f].rows.noalias() -= l.bottomRows(all.rows() - front.count) * own;
-    const Eigen::MatrixXd weighted = l.diagonal().cwiseInverse().asDiagonal() * own;
-    Eigen::MatrixXd part(own.cols(), own.cols());
-    part.triangularView<Eigen::Lower>() = own.transpose() * weighted;
-    for (Eigen::Index c = 0; c < part.cols(); ++c) {
-      double* column = &sum(0, met[std::size_t(c)]);
-      for (Eigen::Index r = c; r < part.rows(); ++r) column[met[std::size_t(r)]] += part(r, c);
-    }
-    for (const int direction : met) place[std::size_t(direction)] = -1;
-  }
-  return sum.selfadjointView<Eigen::Lower>();
 }
 
 }  // namespace cdca

@@ -52,6 +52,7 @@ class FrontFactor {
   void add_rest(const Front& before, const Front& front);
   bool eliminate(const Front& front);
   Dense lower_of(const Front& f) { return {lower_.data() + f.lower, f.rows(), f.count}; }
+  class Compliance;
   ConstDense lower_of(const Front& f) const { return {lower_.data() + f.lower, f.rows(), f.count}; }
   Dense rest_of(const Front& f) {
     return {rest_.data() + f.rest, f.rows() - f.count, f.rows() - f.count};

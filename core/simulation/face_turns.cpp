@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/simulation/face_turns.hpp"
 
+#include "core/mechanics/face_barrier.hpp"
 #include "core/simulation/line_search.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ double balance_after(const SolverReport& solve, double wanted, double enough, do
 /// Where all faces at once take less than a few turns, they are not waited for.
 FaceTurns::Patience patience_of(const Model& model, bool drags) {
   constexpr int forever = std::numeric_limits<int>::max();
-  if (model.condenses()) return {1, 6};
+  if (model.condenses() && FaceBarrier::suits(model.contact())) return {1, 6};
   return drags ? FaceTurns::Patience{forever, forever} : FaceTurns::Patience{4, follow_at_once};
 }
 
