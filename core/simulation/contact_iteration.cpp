@@ -32,7 +32,8 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   ContactSolves solves(model, solver, load_factor, given);
   set_held(model, given.held, model.state());
   const Model::ContactMemory at_first = model.contact_memory();
-  const std::vector<double> here = model.state();
+  std::vector<double> here = model.origin();
+  set_held(model, given.held, here);
   FaceTurns turns(model, solves, given, {enough, most});
   int crept_turns = 0;
   const auto note = [&](double unbalanced) {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace cdca {
 
@@ -51,7 +52,8 @@ class Stop {
         start_factor_(start.last_factor),
         factor_(start.last_factor),
         energy_(start.energy),
-        contact_(model.contact_memory()) {}
+        contact_(model.contact_memory()),
+        state_(model.state()) {}
 
   /// The model is at an equilibrium that the body passes through: from here on.
   void move_to(const Equilibrium& here, double factor) {
@@ -61,11 +63,13 @@ class Stop {
                    energy_);
     factor_ = factor;
     contact_ = model_.contact_memory();
+    state_ = model_.state();
   }
 
   /// Faces are what they were here; displacements stay, as a start.
   void go_back() {
     model_.remember(contact_);
+    model_.set_origin(state_);
     model_.renew_stiffness();
   }
   const EnergyLedger& energy() const { return energy_; }
@@ -76,6 +80,7 @@ class Stop {
   double factor_;
   EnergyLedger energy_;
   Model::ContactMemory contact_;
+  std::vector<double> state_;  ///< displacements
 };
 
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,

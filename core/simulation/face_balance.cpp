@@ -11,6 +11,13 @@ namespace cdca {
 namespace {
 
 constexpr int most_steps = 150;
+/// With the condensed body, where tractions are balanced well enough: they cost little, and what is
+/// out of balance counts as lost in energies.
+constexpr int more_steps = 2;
+/// Rounds with the condensed body from where loose bodies have gone, and what weak springs may add
+/// to the forces after these, as a part of what is enough: their way counts in energies, too.
+constexpr int most_rounds = 4;
+constexpr double pulled_at_most = 1e-2;
 constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  ///< limits of friction and pressures
 constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
 
@@ -50,7 +57,7 @@ FaceBalance::Found FaceBalance::find() {
   if (!drags()) given_.anchor = model_.state();
   if (model_.condenses()) {
     try {
-      go_condensed();
+      while (anchored_anew_ && rounds_ < 2 * most_rounds) go_condensed();
     } catch (const SolveError&) {
       model_.state() = nearest_;
       left_ = 1.0;
@@ -77,16 +84,20 @@ double FaceBalance::agreement() const {
 }
 
 void FaceBalance::go_condensed() {
+  anchored_anew_ = false;
+  ++rounds_;
   std::vector<ContactGap> at = solves_.gaps();
   const auto closed = faces_.closed();
   solves_.answer(closed);
   model_.renew_stiffness(weak_);
   solves_.once({});
+  scale_ = solves_.slowest().scale;
   const auto closed_gaps = solves_.gaps();
   const Model::FacesOfBody& condensed = model_.condensed(closed);
   BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
   auto nearest = faces_.held_at(at);
   double least = 1.0;
+  int after_enough = 0;
   bool goes_on = true;
   while (goes_on && now_.steps < most_steps) {
     ++now_.steps;
@@ -111,7 +122,8 @@ void FaceBalance::go_condensed() {
       least = off();
       nearest = faces_.held_at(at);
     }
-    goes_on = least > rule_.enough && is_of_use_to_go_on(least);
+    const bool enough = least <= rule_.enough;
+    goes_on = enough ? ++after_enough <= more_steps : is_of_use_to_go_on(least);
   }
   // the displacements that go with these gaps
   solves_.answer(nearest);
@@ -162,7 +174,12 @@ void FaceBalance::judge() {
   if (drags()) return;
   std::vector<double> move = state;
   for (std::size_t k = 0; k < state.size(); ++k) move[k] -= given_.anchor[k];
-  if (const double pulled = solves_.held_back(move); now_.found && pulled > rule_.enough) {
+  double pulled = solves_.held_back(move);
+  // closed faces that exert what others do count as forces, too, and are much larger than the loads
+  if (scale_ > 0.0) pulled *= solves_.slowest().scale / scale_;
+  const bool cheap = scale_ > 0.0 && rounds_ < most_rounds;
+  if (now_.found && pulled > (cheap ? pulled_at_most : 1.0) * rule_.enough) {
+    anchored_anew_ = true;
     given_.anchor = state;
     left_ = pulled;
     now_.found = false;

@@ -55,6 +55,9 @@ class FaceBalance {
   double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way
   double least_ = 1.0;
   int restarts_ = 0;
+  double scale_ = 0.0;           ///< of the loads; 0: not known
+  int rounds_ = 0;               ///< with the condensed body
+  bool anchored_anew_ = true;    ///< weak springs hold loose bodies where they have come to now
   std::vector<double> nearest_;  ///< state
 };
 

@@ -80,6 +80,7 @@ std::vector<ContactSpec> Model::contact_laws() const {
 
 void Model::build_cells(const CellUnknowns::Kept* kept) {
   condensed_.reset();
+  origin_.clear();
   stiffness_cache_.begin_cycle();
   intensity_cache_.begin_cycle();
   unknowns_ = CellUnknowns(mesh_, cuts_, zones_, communicator_, kept);
@@ -142,6 +143,7 @@ double Model::contact_energy() const {
 }
 
 double Model::accept_contact(Since since) {
+  origin_.clear();
   if (contact_.empty()) return 0.0;
   const double after = since == Since::other_loads ? 0.5 : 1.0;
   const double work = spots_.accept(contact_, state_, after, communicator_);

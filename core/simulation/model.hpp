@@ -57,6 +57,11 @@ class Model {
     rubbed_ = memory.rubbed;
   }
 
+  /// Displacements that the faces' states and slip belong to, where those at hand are only a start
+  /// for the next equilibrium; of the same cracks. Until one is accepted, or cracks are laid.
+  void set_origin(std::vector<double> state) { origin_ = std::move(state); }
+  const std::vector<double>& origin() const { return origin_.empty() ? state_ : origin_; }
+
   /// Takes over a registry that differs from the model's by its events only.
   void replace_events(CrackRegistry registry) { registry_ = std::move(registry); }
 
@@ -195,6 +200,7 @@ class Model {
   std::optional<FacesOfBody> condensed_;
   double weak_share_ = 0.0;  ///< in the stiffness
   std::vector<double> state_;
+  std::vector<double> origin_;  ///< empty: state_
 };
 
 }  // namespace cdca
