@@ -256,6 +256,20 @@ ContactPatches::Change ContactPatches::respond(const std::vector<ContactGap>& ga
   return change;
 }
 
+double ContactPatches::least_holding(double tolerance) const {
+  // tractions are balanced to ten times the tolerance; what is near to that may be there or not
+  constexpr double above_rounding = 100;
+  double largest = 0.0;
+  for (const ContactPatch& p : patches_) largest = std::max(largest, std::abs(p.now.normal));
+  return above_rounding * tolerance * largest;
+}
+
+bool ContactPatches::holds(const ContactPatch& patch, double least) {
+  // new faces touch without a traction until an equilibrium shows what they do
+  const double traction = std::abs(patch.now.normal);
+  return patch.now.state != ContactState::open && (traction == 0.0 || traction > least);
+}
+
 void ContactPatches::find_means() {
   for (ContactGroup& g : groups_) g = {};
   for (const ContactPatch& p : patches_) {

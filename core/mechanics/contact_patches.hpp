@@ -96,6 +96,10 @@ class ContactPatches final : public FaceSprings {
   };
   /// Gives all patches new gaps, and the answers to them.
   Change respond(const std::vector<ContactGap>& gaps, const std::vector<double>& limits);
+  /// A face that exerts less than this (Pa) does not hold a body, after an equilibrium that is
+  /// exact to the tolerance: rounding decides whether it touches at all.
+  double least_holding(double tolerance) const;
+  static bool holds(const ContactPatch& patch, double least);
   /// Takes the openings and tractions of this equilibrium into the history.
   void accept();
 

@@ -119,12 +119,13 @@ void Model::close_new_faces() {
 }
 
 std::vector<char> Model::held_bodies(Holding faces) const {
+  const double least = contact_.least_holding(spec_.solver.tolerance);
   std::vector<char> held;
   for (const Body& body : bodies_->list()) held.push_back(body.held);
   for (bool found = true; found;) {
     found = false;
     for (const ContactPatch& p : contact_.patches()) {
-      if (faces != Holding::all && p.now.state == ContactState::open) continue;
+      if (faces != Holding::all && !ContactPatches::holds(p, least)) continue;
       const auto [a, b] = p.bodies;
       if (a < 0 || b < 0 || held[std::size_t(a)] == held[std::size_t(b)]) continue;
       held[std::size_t(held[std::size_t(a)] ? b : a)] = 1;
@@ -291,6 +292,7 @@ std::vector<double> Model::springs(double weak) const {
 
 bool Model::joins_loaded_boundaries() const {
   const auto held = held_bodies(Holding::touching);
+  const double least = contact_.least_holding(spec_.solver.tolerance);
   const auto& bodies = bodies_->list();
   std::vector<std::uint64_t> marks;
   for (const Body& body : bodies) marks.push_back(body.marks);
@@ -299,7 +301,7 @@ bool Model::joins_loaded_boundaries() const {
     found = false;
     for (const ContactPatch& p : contact_.patches()) {
       const auto [a, b] = p.bodies;
-      if (p.now.state == ContactState::open || a < 0 || b < 0) continue;
+      if (!ContactPatches::holds(p, least) || a < 0 || b < 0) continue;
       auto &of_a = marks[std::size_t(a)], &of_b = marks[std::size_t(b)];
       if (of_a == of_b) continue;
       of_a = of_b = of_a | of_b;
