@@ -36,11 +36,10 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
     if (r < std::size_t(communicator.rank())) first_ += std::size_t(counts[r]);
     total_ += std::size_t(counts[r]);
   }
-  std::vector<double>& number = number_;
-  number.assign(std::size_t(cells.count()), -1.0);
-  for (std::size_t u = 0; u < own; ++u) number[u] = double(first_ + u);
-  for (const LocalId u : cells.held()) number[std::size_t(u)] = -1.0;
-  cells.halo().copy_state(number);
+  number_.assign(std::size_t(cells.count()), -1.0);
+  for (std::size_t u = 0; u < own; ++u) number_[u] = double(first_ + u);
+  for (const LocalId u : cells.held()) number_[std::size_t(u)] = -1.0;
+  cells.halo().copy_state(number_);
 
   held_ = cells.held().size();
   StiffnessEntries entries;
@@ -51,11 +50,11 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
   const StiffnessRows& rows = cells.rows();
   for (std::size_t r = 0; r < rows.unknown.size(); ++r) {
     const auto u = std::size_t(rows.unknown[r]);
-    if (u >= own || number[u] < 0) continue;
+    if (u >= own || number_[u] < 0) continue;
     for (std::size_t k = rows.start[r]; k < rows.start[r + 1]; ++k) {
-      const double column = number[std::size_t(rows.column[k])];
-      if (column < 0 || column > number[u]) continue;
-      entries.emplace_back(int(number[u]), int(column), rows.value[k]);
+      const double column = number_[std::size_t(rows.column[k])];
+      if (column < 0 || column > number_[u]) continue;
+      entries.emplace_back(int(number_[u]), int(column), rows.value[k]);
       entries_.push_back(k);
     }
   }
@@ -86,7 +85,8 @@ Eigen::MatrixXd CoarsestSolve::compliance(std::size_t measures,
     const double number = number_[std::size_t(e.unknown)];
     if (number >= 0) entries.emplace_back(int(e.measure), int(number), e.value);
   }
-  return factor_.compliance(measures, of_all(cells_.communicator(), std::move(entries)));
+  const StiffnessEntries all = of_all(cells_.communicator(), std::move(entries));
+  return cells_.communicator().rank() == 0 ? factor_.compliance(measures, all) : Eigen::MatrixXd();
 }
 
 }  // namespace cdca

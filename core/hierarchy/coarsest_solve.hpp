@@ -21,7 +21,7 @@ class CoarsestSolve {
   /// moves = K^-1 forces on own cells; 0 on held unknowns. Collective.
   void solve(std::span<const double> forces, std::span<double> moves) const;
   /// How far forces on each of some measures move all of them; the effects of all ranks on them
-  /// count. The same on every rank. Collective.
+  /// count. On the first rank; empty on the others. Collective.
   Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const;
 
  private:

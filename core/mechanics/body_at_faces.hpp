@@ -21,19 +21,25 @@ namespace cdca {
 /// Closed faces hold all loose bodies, so that C is exact; k0 - k is 0 for faces that stay closed.
 class BodyAtFaces {
  public:
-  /// compliance: C, m^2/N by place; closed: the gaps of all patches with closed faces under the
-  /// loads. Both are borrowed.
+  /// compliance: C, m^2/N by place, needed on the first rank only; closed: the gaps of all patches
+  /// with closed faces under the loads. All are borrowed.
   BodyAtFaces(const std::vector<SpringPlace>& places, const Eigen::MatrixXd& compliance,
-              const std::vector<ContactGap>& closed);
-  /// With these answers of all patches. Throws SolveError where they hold the body too weakly.
+              const std::vector<ContactGap>& closed, Communicator& communicator);
+  /// With these answers of all patches, on every rank what the first one finds: those that decide
+  /// by it must not differ by their rounding. Throws SolveError where the answers hold the body too
+  /// weakly. Collective.
   std::vector<ContactGap> gaps(const std::vector<ContactAnswer>& answers);
 
  private:
-  void set_springs(const Eigen::VectorXd& springs);
+  /// Empty where there is no factor.
+  std::vector<ContactGap> found(const std::vector<ContactAnswer>& answers);
+  /// Returns whether there is a factor.
+  bool set_springs(const Eigen::VectorXd& springs);
 
   const std::vector<SpringPlace>& places_;
   const Eigen::MatrixXd& compliance_;
   const std::vector<ContactGap>& closed_;
+  Communicator& communicator_;
   Eigen::VectorXd springs_;  ///< k that the factor is for, Pa/m
   Eigen::VectorXd roots_;    ///< of w (k0 - k)
   DenseFactor factor_;

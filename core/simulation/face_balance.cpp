@@ -4,7 +4,7 @@
 #include "core/base/errors.hpp"
 
 #include <algorithm>
-#include <span>
+#include <utility>
 
 namespace cdca {
 
@@ -20,23 +20,6 @@ constexpr int most_rounds = 4;
 constexpr double pulled_at_most = 1e-2;
 constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  ///< limits of friction and pressures
 constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
-
-/// Gaps of the condensed body, on every rank those that the first one has found: ranks that decide
-/// by them must not differ by their rounding.
-std::vector<ContactGap> gaps_of(BodyAtFaces& body, const std::vector<ContactAnswer>& answers,
-                                Communicator& communicator) {
-  Bytes bytes;
-  if (communicator.rank() == 0) {
-    try {
-      pack(bytes, std::span<const ContactGap>(body.gaps(answers)));
-    } catch (const SolveError&) {
-      bytes.clear();
-    }
-  }
-  communicator.broadcast(bytes);
-  if (bytes.empty()) throw SolveError("springs of faces hold the body too weakly for a factor.");
-  return unpack<ContactGap>(bytes);
-}
 
 }  // namespace
 
@@ -63,9 +46,7 @@ FaceBalance::Found FaceBalance::find() {
       left_ = 1.0;
     }
   }
-  while (!now_.found && now_.steps < most_steps && restarts_ <= rule_.most_restarts &&
-         step_whole()) {
-  }
+  while (!now_.found && !gave_up_ && now_.steps < most_steps) step_whole();
   if (!drags()) given_.anchor.clear();
   if (!now_.found) {
     model_.state() = nearest_;
@@ -94,8 +75,13 @@ void FaceBalance::go_condensed() {
   scale_ = solves_.slowest().scale;
   const auto closed_gaps = solves_.gaps();
   const Model::FacesOfBody& condensed = model_.condensed(closed);
-  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
-  auto nearest = faces_.held_at(at);
+  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps, model_.communicator());
+  struct Place {
+    FaceBarrier faces;
+    std::vector<ContactGap> gaps;
+    double left;
+  };
+  Place nearest{faces_, at, left_};
   double least = 1.0;
   int after_enough = 0;
   bool goes_on = true;
@@ -104,11 +90,8 @@ void FaceBalance::go_condensed() {
     std::vector<ContactGap> there = at;
     double share = 0.0;
     try {
-      share = faces_.step(
-          [&](const auto& answers) {
-            return there = gaps_of(body, answers, model_.communicator());
-          },
-          agreement());
+      share =
+          faces_.step([&](const auto& answers) { return there = body.gaps(answers); }, agreement());
     } catch (const SolveError&) {
       break;
     }
@@ -120,19 +103,24 @@ void FaceBalance::go_condensed() {
     now_.unbalanced = faces_.unbalanced(at);
     if (off() < least) {
       least = off();
-      nearest = faces_.held_at(at);
+      nearest = {faces_, at, left_};
     }
-    const bool enough = least <= rule_.enough;
-    goes_on = enough ? ++after_enough <= more_steps : is_of_use_to_go_on(least);
+    if (least <= rule_.enough) {
+      goes_on = ++after_enough <= more_steps;
+    } else {
+      gave_up_ = !is_of_use_to_go_on(least);
+      goes_on = !gave_up_;
+    }
   }
   // the displacements that go with these gaps
-  solves_.answer(nearest);
+  faces_ = std::move(nearest.faces);
+  solves_.answer(faces_.held_at(nearest.gaps));
   solves_.once({});
-  left_ = std::max(least, solves_.slowest().residual);
+  left_ = std::max(nearest.left, solves_.slowest().residual);
   judge();
 }
 
-bool FaceBalance::step_whole() {
+void FaceBalance::step_whole() {
   ++now_.steps;
   std::vector<double>& state = model_.state();
   const std::vector<double> before = state;
@@ -148,13 +136,14 @@ bool FaceBalance::step_whole() {
   try {
     share = faces_.step(solve, agreement());
   } catch (const SolveError&) {
-    return false;  // springs so different that no solve is possible with them
+    gave_up_ = true;  // springs so different that no solve is possible with them
+    return;
   }
   for (std::size_t k = 0; k < state.size(); ++k)
     state[k] = before[k] + share * (state[k] - before[k]);
   left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_ + share * solves_.slowest().residual;
   judge();
-  return is_of_use_to_go_on(least_);
+  gave_up_ = !is_of_use_to_go_on(least_);
 }
 
 bool FaceBalance::is_of_use_to_go_on(double least) {

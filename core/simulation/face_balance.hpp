@@ -35,8 +35,8 @@ class FaceBalance {
  private:
   /// As far as it goes with the body condensed to its faces, from where faces are balanced or not.
   void go_condensed();
-  /// One step with the whole body. Returns whether it is of use to go on.
-  bool step_whole();
+  /// One step with the whole body.
+  void step_whole();
   /// Whether the state at hand is the one that is looked for.
   void judge();
   double off() const { return std::max(now_.unbalanced, left_); }
@@ -55,6 +55,7 @@ class FaceBalance {
   double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way
   double least_ = 1.0;
   int restarts_ = 0;
+  bool gave_up_ = false;
   double scale_ = 0.0;           ///< of the loads; 0: not known
   int rounds_ = 0;               ///< with the condensed body
   bool anchored_anew_ = true;    ///< weak springs hold loose bodies where they have come to now

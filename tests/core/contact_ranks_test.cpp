@@ -167,7 +167,7 @@ TEST(CondensedBodyParallel, MovesItsFacesAsTheWholeBody) {
   const auto closed_gaps = gaps_of_whole(closed);
   const auto& condensed = model.condensed(closed);
   EXPECT_EQ(condensed.places.size(), 2 * closed.size());
-  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps);
+  BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps, world());
   std::mt19937 engine(3);
   std::uniform_real_distribution<> power(-8, 0), zero(-1e-6, 1e-6);
   for (int round = 0; round < 3; ++round) {
