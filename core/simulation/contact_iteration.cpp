@@ -46,7 +46,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     model.remember(at_first);
     model.state() = here;
     const Crept crept = creep_to_balance(model, solves, given, enough, most_creeping);
-    crept_turns += crept.turns;
+    crept_turns += crept.turns + crept.steps;
     note(crept.unbalanced);
     return crept.found;
   };

@@ -14,7 +14,7 @@ namespace {
 
 struct DragStep {
   bool balanced = false;
-  int turns = 0;
+  int turns = 0, steps = 0;
   double limits_off = 1.0, pulled = 0.0;  ///< as of FaceTurns
   bool limits_agree = false;
 };
@@ -23,13 +23,14 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
   try {
     FaceTurns turns(model, solves, given, rule);
     const FaceTurns::End end = turns.turn();
-    bool balanced = end == FaceTurns::End::balanced;
+    FaceBalance::Found balance{.found = end == FaceTurns::End::balanced};
     if (end == FaceTurns::End::jammed) {
-      const auto found = FaceBalance(model, solves, given, {rule.enough, 0.0, rule.drag}).find();
-      turns.take(found.unbalanced);
-      balanced = found.found;
+      balance =
+          FaceBalance(model, solves, given, {.enough = rule.enough, .drag = rule.drag}).find();
+      turns.take(balance.unbalanced);
     }
-    return {balanced, turns.count(), turns.limits_off(), turns.pulled(), turns.limits_agree()};
+    return {balance.found,      turns.count(),  balance.steps,
+            turns.limits_off(), turns.pulled(), turns.limits_agree()};
   } catch (const SolveError&) {
     return {};  // springs of faces so different that no solve is exact; more drag helps here, too
   }
@@ -68,6 +69,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     const std::vector<double> state = model.state();
     const DragStep now = step(model, solves, given, {close, most_turns, drag, ahead});
     crept.turns += now.turns;
+    crept.steps += now.steps;
     crept.unbalanced = now.limits_off;
     if (!now.balanced) {
       model.remember(memory);

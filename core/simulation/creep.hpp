@@ -9,6 +9,7 @@ namespace cdca {
 struct Crept {
   bool found = false;
   int turns = 0;
+  int steps = 0;            ///< of all faces at once, between turns
   double unbalanced = 1.0;  ///< tractions, as a part of the largest
 };
 

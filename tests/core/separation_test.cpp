@@ -92,5 +92,24 @@ TEST(SeparationParallel, TouchingFacesJoinAndOpenOnesDoNot) {
   }
 }
 
+/// Rounding decides whether such faces touch at all.
+TEST(SeparationParallel, FacesThatExertNextToNothingHoldNoBody) {
+  CaseSpec spec = clamped();
+  spec.boundaries[1] = moved(Side::top, 0, -1e-3);
+  add_crack(spec, {{0, 5.3}, {3.2, 4.1}});
+  add_crack(spec, {{0, 2.7}, {3.2, 4.1}});
+  add_crack(spec, {{5.1, 4.4}, {7.2, 4.4}});
+  for (CrackSpec& crack : spec.cracks)
+    crack.contact = {ContactLaw::frictionless, 1e6, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const auto model = built(spec);
+  EXPECT_TRUE(model->loose_bodies().empty()) << "new faces hold until an equilibrium is known";
+  const double pressed = 1e3, tolerance = spec.solver.tolerance;
+  for (const double part : {1e6 * tolerance, tolerance}) {
+    for (ContactPatch& patch : model->contact().patches())
+      patch.now.normal = patch.crack == 2 ? -pressed : -part * pressed;
+    EXPECT_EQ(model->loose_bodies().size(), part > tolerance ? 0u : 1u);
+  }
+}
+
 }  // namespace
 }  // namespace cdca::testing

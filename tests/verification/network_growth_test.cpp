@@ -246,6 +246,12 @@ TEST(Creep, EndsWhereTurnsEnd) {
   EXPECT_LE(found.contact_iterations, 5);
 }
 
+/// A load is tried here that is ten times the last one. Bodies that creep on the way back from it
+/// come from where faces were at the last stop: nothing has rubbed between the two loads.
+TEST(Creep, LeavesNoFrictionOfLoadsThatWereTried) {
+  expect_to_end_well(Network{4, Loading::tension_with_contact});
+}
+
 /// With friction it ends at one of them, and the way there has rubbed.
 TEST(Creep, Rubs) {
   for (const unsigned seed : {4U, 37U, 41U}) {
