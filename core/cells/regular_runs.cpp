@@ -31,6 +31,12 @@ RegularRuns::RegularRuns(const LocalMesh& mesh, const std::vector<NodeRun>& regu
   find_mirrored();
 }
 
+RegularRuns::RegularRuns(std::vector<RegularRun> runs, const Stencil& stencil)
+    : runs_(std::move(runs)), stencil_(stencil) {
+  inverse_ = diagonal().inverse();
+  find_mirrored();
+}
+
 Eigen::Matrix2d RegularRuns::diagonal() const {
   Eigen::Matrix2d centre;
   centre << stencil_[1][0][2], stencil_[1][0][3], stencil_[1][1][2], stencil_[1][1][3];
@@ -96,6 +102,12 @@ void RegularRuns::apply(std::span<const double> x, std::span<double> forces) con
   double* out = forces.data();
   for_each_force(x.data(),
                  [out](std::ptrdiff_t k, const Pair& force) { Eigen::Map<Pair>(out + k) = force; });
+}
+
+void RegularRuns::add(std::span<const double> x, std::span<double> forces) const {
+  double* out = forces.data();
+  for_each_force(
+      x.data(), [out](std::ptrdiff_t k, const Pair& force) { Eigen::Map<Pair>(out + k) += force; });
 }
 
 void RegularRuns::set_residual(std::span<const double> forces, std::span<const double> x,

@@ -28,6 +28,8 @@ class RegularRuns {
   /// All nine cells of a regular cell's stencil are own and plain.
   RegularRuns(const LocalMesh& mesh, const std::vector<NodeRun>& regular,
               const Eigen::Matrix<double, 8, 8>& element_stiffness);
+  /// Of a stencil that is the same mirrored in x and y.
+  RegularRuns(std::vector<RegularRun> runs, const Stencil& stencil);
 
   const std::vector<RegularRun>& runs() const { return runs_; }
   std::int64_t cells() const;
@@ -36,6 +38,8 @@ class RegularRuns {
   Eigen::Matrix2d diagonal() const;
   /// forces = K x for the cells of all runs.
   void apply(std::span<const double> x, std::span<double> forces) const;
+  /// forces += K x for the cells of all runs.
+  void add(std::span<const double> x, std::span<double> forces) const;
   /// residual = forces - K x for the cells of all runs.
   void set_residual(std::span<const double> forces, std::span<const double> x,
                     std::span<double> residual) const;

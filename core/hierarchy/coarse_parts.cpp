@@ -133,7 +133,11 @@ int CoarseParts::part_of(GridIndex child, int part) const {
 }
 
 PlainStiffness CoarseParts::stiffness(GridIndex e, int part) const {
-  if (const Element* element = find(e)) return element->stiffness[std::size_t(part)];
+  const Element* element = find(e);
+  return element ? element->stiffness[std::size_t(part)] : whole(e);
+}
+
+PlainStiffness CoarseParts::whole(GridIndex e) const {
   const Vec2 share = inside(e), &h = grid_.element_size();
   if (share.minCoeff() >= 1.0) return plain_;
   PlainStiffness k = PlainStiffness::Zero();
@@ -141,6 +145,14 @@ PlainStiffness CoarseParts::stiffness(GridIndex e, int part) const {
     add_point(q.at.cwiseProduct(share), q.weight * share.prod() * h.prod(), h, elastic_, k);
   }
   return k;
+}
+
+std::vector<PlainStiffness> CoarseParts::whole_elements() const {
+  std::vector<PlainStiffness> kinds{plain_};
+  const int last_x = grid_.nx() - 1, last_y = grid_.ny() - 1;
+  for (const GridIndex e : {GridIndex{last_x, 0}, GridIndex{0, last_y}, GridIndex{last_x, last_y}})
+    if (over_the_rim(e)) kinds.push_back(whole(e));
+  return kinds;
 }
 
 const CoarseParts::Element* CoarseParts::find(GridIndex e) const {

@@ -71,8 +71,12 @@ class CoarseParts final : public ScaleParts {
   /// Does the element reach beyond the rim?
   bool over_the_rim(GridIndex e) const { return inside(e).minCoeff() < 1.0; }
   const PlainStiffness& plain() const { return plain_; }
+  /// The stiffness of all kinds of elements without cracks: within the body, and over its rim.
+  std::vector<PlainStiffness> whole_elements() const;
 
  private:
+  /// Of an element without cracks.
+  PlainStiffness whole(GridIndex e) const;
   struct Element {
     int parts = 0;
     std::array<std::vector<int>, 4> part_of_child;

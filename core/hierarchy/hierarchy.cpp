@@ -80,9 +80,9 @@ class Hierarchy::Level final : public Scale {
                                                  communicator, carried);
     cells_ = own_cells_.get();
   }
-  void set_smoother(const WindowPlans& plans, const PlainStiffness& plain, WindowFactors& factors,
-                    const Level* before, const CarriedCells* carried) {
-    plain_ = PlainCells(*mesh_, *cells_, plain, plans.near_cracks);
+  void set_smoother(const WindowPlans& plans, const std::vector<PlainStiffness>& whole_elements,
+                    WindowFactors& factors, const Level* before, const CarriedCells* carried) {
+    plain_ = PlainCells(*mesh_, *unknowns_, *cells_, whole_elements, plans.near_cracks);
     windows_ = std::make_unique<Windows>(plans, *mesh_, *unknowns_, *cells_, factors,
                                          before ? before->windows_.get() : nullptr, carried);
   }
@@ -163,7 +163,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     return;
   }
   const PlainStiffness element = plain_stiffness(basis.mesh.grid().element_size(), finest.elastic);
-  levels_[0]->set_smoother(finest_plans_, element, factors_, level_before(0), finest.carried);
+  levels_[0]->set_smoother(finest_plans_, {element}, factors_, level_before(0), finest.carried);
   CoarseSupports supports(finest.held, finest.springs, point_softening(element, finest.elastic));
   const ScaleParts* finer = finest_parts_.get();
   ChangedElements changed;
@@ -202,7 +202,7 @@ void Hierarchy::build(const FinestScale& finest, const CellStiffness& cells) {
     if (coarsest) {
       level.set_coarsest(coarsest_factor_);
     } else {
-      level.set_smoother(plans, parts.plain(), factors_, was, same);
+      level.set_smoother(plans, parts.whole_elements(), factors_, was, same);
     }
     finer = &parts;
   }

@@ -9,43 +9,58 @@
 
 namespace cdca {
 
-/// Damped block Jacobi: moves += omega K_i^-1 f_i for every cell that no window must move.
+/// Two steps of the rule for every cell that no window must move, all at once, damped in the manner
+/// of Chebyshev: moves += (a + b D^-1 K) D^-1 forces, K between these cells alone and D their own
+/// blocks of it. That takes out the rough part of the forces, whose rates D^-1 K lie between
+/// `least_rough` of the largest rate and this one.
 class PlainCells {
  public:
   PlainCells() = default;
-  /// near_cracks: own nodes left out, ascending global ids.
-  PlainCells(const LocalMesh& mesh, const CellStiffness& cells, const PlainStiffness& plain,
+  /// whole_elements: the stiffness of all kinds of elements without cracks. near_cracks: own nodes
+  /// left out, ascending global ids. Collective.
+  PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns, const CellStiffness& cells,
+             const std::vector<PlainStiffness>& whole_elements,
              const std::vector<GlobalId>& near_cracks);
 
+  /// Collective.
   void move(std::span<const double> forces, std::span<double> moves) const;
-  /// As move(), with all own moves 0 before.
+  /// As move(), with all own moves 0 before. Collective.
   void start(std::span<const double> forces, std::span<double> moves) const;
-  double damping() const { return omega_; }
 
  private:
+  static constexpr double least_rough = 0.15;
+
   struct Cell {
     LocalId unknown;          ///< x; y follows
-    Eigen::Matrix2d inverse;  ///< times omega; rows of held unknowns are 0
+    Eigen::Matrix2d inverse;  ///< D^-1; rows of held unknowns are 0
   };
   /// Consecutive own unknowns.
-  struct Run {
+  struct Range {
     LocalId first;
     LocalId count;
   };
-  /// Calls store(place, move) for every cell of the runs.
-  template <class Store>
-  void for_each_regular(const double* forces, const Store& store) const;
-  void move_others(std::span<const double> forces, std::span<double> moves) const;
 
-  std::vector<Run> runs_;
-  std::vector<Run> gaps_;  ///< between the runs
-  std::vector<Cell> cells_;
-  Eigen::Matrix2d inverse_ = Eigen::Matrix2d::Zero();  ///< of regular cells, times omega
-  double omega_ = 1.0;
+  void find_damping(const std::vector<PlainStiffness>& whole_elements);
+  /// Regular cells all of whose neighbours are regular: both steps are one stencil there.
+  void lay_inner(const RegularRuns& regular, LocalId owned);
+  void find_outer(const LocalMesh& mesh, const CellStiffness& cells,
+                  const std::vector<GlobalId>& near_cracks);
+  void lay_outer(const LocalMesh& mesh, const CellUnknowns& unknowns, const CellStiffness& cells);
+  void move_outer(std::span<const double> forces, std::span<double> moves) const;
+
+  double first_ = 0.0, second_ = 0.0;  ///< a and b
+  RegularRuns inner_;
+  std::vector<Range> gaps_;  ///< between the runs of inner cells
+  std::vector<Cell> outer_;  ///< the others
+  /// K D^-1: what the forces on own cells do, after one step, to outer cells (x and y of each) and
+  /// to unknowns of ghosts. Rows without entries stand for what does not count.
+  StiffnessRows after_step_;
+  Halo halo_;                            ///< of the rows
+  mutable std::vector<double> reached_;  ///< one value per row
 };
 
-/// Four thirds over the largest eigenvalue of D^-1 K of one element, D the blocks of its corners:
-/// no assembly of such elements has a larger one.
-double jacobi_damping(const PlainStiffness& element);
+/// The largest eigenvalue of D^-1 K of one element, D the blocks of its corners: no assembly of
+/// such elements has a larger one.
+double largest_rate(const PlainStiffness& element);
 
 }  // namespace cdca

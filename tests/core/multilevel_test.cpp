@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -98,6 +99,39 @@ TEST(MultilevelParallel, TransfersAreTransposed) {
     scale.forces_to_coarser(y, pty);
     EXPECT_NEAR(plate.cells(k - 1).dot(px, y), plate.cells(k).dot(x, pty),
                 1e-12 * double(y.size()));
+  }
+}
+
+/// Two steps leave T_2 of the rate, scaled to 1 where nothing moves, of every rough move; with all
+/// rates below the largest one they never move farther than 1 + 1 / T_2 times the way. Elements
+/// over the rim of coarse scales have larger rates than those within.
+TEST(MultilevelParallel, PlainCellsMoveAlikeOnBothSidesAndNotTooFar) {
+  constexpr double middle = 1.15 / 0.85;
+  const double farthest = 1.0 + 1.0 / (2.0 * middle * middle - 1.0);
+  const Built plate(cracked());
+  for (std::size_t k = 0; k + 1 < plate.model.hierarchy().count(); ++k) {
+    const Scale& scale = plate.model.hierarchy().scale(k);
+    const CellSystem& cells = plate.cells(k);
+    double most = 0.0;
+    for (unsigned seed = 1; seed < 4; ++seed) {
+      const Vector x = plate.apply(k, plate.random(k, seed)), y = plate.random(k, seed + 10);
+      Vector mx = plate.random(k, 7), my = plate.zeros(k);
+      scale.start_plain_cells(x, mx);
+      scale.move_plain_cells(y, my);
+      const double xmx = cells.dot(x, mx), ymy = cells.dot(y, my);
+      EXPECT_GT(xmx, 0.0);
+      EXPECT_GT(ymy, 0.0);
+      EXPECT_NEAR(cells.dot(x, my), cells.dot(y, mx), 1e-12 * std::sqrt(xmx * ymy));
+      // towards the move that goes farthest
+      for (int step = 0; step < 30; ++step) {
+        mx = my;
+        scale.start_plain_cells(plate.apply(k, mx), my);
+        const double now = cells.dot(my, plate.apply(k, mx)) / cells.dot(mx, plate.apply(k, mx));
+        most = std::max(most, now);
+      }
+    }
+    EXPECT_LE(most, farthest + 1e-9) << "scale " << k;
+    EXPECT_GT(most, 0.9) << "scale " << k;
   }
 }
 
