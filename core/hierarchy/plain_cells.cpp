@@ -93,7 +93,7 @@ void PlainCells::lay_inner(const RegularRuns& regular, LocalId owned) {
   for (const RegularRun& run : regular.runs()) {
     LocalId outer = run.node;
     const auto add_outer = [&](LocalId next) {
-      for (; outer < next; ++outer) outer_.push_back({2 * outer, inverse});
+      for (; outer < next; ++outer) outer_.push_back({2 * outer, of_run, inverse});
     };
     for (const RegularRun& part : inner_parts(regular.runs(), run)) {
       inner.push_back(part);
@@ -147,7 +147,7 @@ void PlainCells::find_outer(const LocalMesh& mesh, const CellStiffness& cells,
       }
     }
     const bool x = is_held(u), y = is_held(u + 1);
-    outer_.push_back({u, inverse_of_free(own, x, y)});
+    outer_.push_back({u, row, inverse_of_free(own, x, y)});
   }
 }
 
@@ -176,30 +176,29 @@ void PlainCells::lay_outer(const LocalMesh& mesh, const CellUnknowns& unknowns,
     for (Eigen::Index d = 0; d < 2; ++d)
       after.value[after.value.size() - 2 + std::size_t(d)] += value * inverse(column % 2, d);
   };
+  constexpr std::size_t usual = 18;  // of a row, in nine cells
+  after.start.reserve(2 * outer_.size());
+  after.column.reserve(2 * usual * outer_.size());
+  after.value.reserve(2 * usual * outer_.size());
   const auto end_row = [&] { after.start.push_back(after.column.size()); };
   const StiffnessRows& rows = cells.rows();
-  const auto add_row = [&](LocalId unknown) {
-    const std::ptrdiff_t row = rows.find(unknown);
-    if (row >= 0) {
-      for (std::size_t k = rows.start[std::size_t(row)]; k < rows.start[std::size_t(row) + 1]; ++k)
-        add_entry(rows.column[k], rows.value[k]);
-    }
+  const auto add_row = [&](std::size_t row) {
+    for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
+      add_entry(rows.column[k], rows.value[k]);
     end_row();
   };
   const auto& runs = cells.regular().runs();
+  auto run = runs.begin();  // cells of runs come in order
   for (const Cell& cell : outer_) {
     const LocalId n = cell.unknown / 2;
-    auto run = std::upper_bound(runs.begin(), runs.end(), n,
-                                [](LocalId m, const RegularRun& r) { return m < r.node; });
-    if (run != runs.begin()) --run;
-    const bool in_run = run != runs.end() && n >= run->node && n < run->node + run->count;
+    if (cell.row != of_run) {
+      for (std::size_t c = 0; c < 2; ++c) add_row(cell.row + c);
+      continue;
+    }
+    while (n >= run->node + run->count) ++run;
+    const LocalId k = n - run->node;
+    const std::array<LocalId, 3> middle{run->below + k, n, run->above + k};
     for (std::size_t c = 0; c < 2; ++c) {
-      if (!in_run) {
-        add_row(cell.unknown + LocalId(c));
-        continue;
-      }
-      const LocalId k = n - run->node;
-      const std::array<LocalId, 3> middle{run->below + k, n, run->above + k};
       for (std::size_t r = 0; r < 3; ++r) {
         for (std::size_t m = 0; m < 6; ++m)
           add_entry(2 * (middle[r] - 1) + LocalId(m), cells.regular().stencil()[r][c][m]);
@@ -208,7 +207,10 @@ void PlainCells::lay_outer(const LocalMesh& mesh, const CellUnknowns& unknowns,
     }
   }
   const LocalId ghosts = LocalId(2 * outer_.size());
-  for (LocalId u = unknowns.owned(); u < unknowns.count(); ++u) add_row(u);
+  for (LocalId u = unknowns.owned(); u < unknowns.count(); ++u) {
+    const std::ptrdiff_t row = rows.find(u);
+    row < 0 ? end_row() : add_row(std::size_t(row));
+  }
   const LocalId elsewhere = ghosts + (unknowns.count() - unknowns.owned());
   end_row();
   reached_.assign(std::size_t(elsewhere) + 1, 0.0);

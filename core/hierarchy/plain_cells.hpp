@@ -32,8 +32,10 @@ class PlainCells {
 
   struct Cell {
     LocalId unknown;          ///< x; y follows
+    std::size_t row;          ///< of x among the rows of all cells, or of_run
     Eigen::Matrix2d inverse;  ///< D^-1; rows of held unknowns are 0
   };
+  static constexpr auto of_run = std::size_t(-1);  ///< the common stencil
   /// Consecutive own unknowns.
   struct Range {
     LocalId first;
