@@ -17,9 +17,10 @@ class Scale {
   virtual const CellSystem& cells() const = 0;
 
   /// The rule for all cells away from cracks at once, damped: adds moves, leaves forces as they
-  /// are.
+  /// are. Collective.
   virtual void move_plain_cells(std::span<const double> forces, std::span<double> moves) const = 0;
   /// As move_plain_cells() for cells that have not moved yet: the moves on entry do not count.
+  /// Collective.
   virtual void start_plain_cells(std::span<const double> forces, std::span<double> moves) const = 0;
   /// The rule for cells near cracks, window by window; brings the forces up to date. Collective.
   virtual void move_windows(SweepDirection direction, std::span<double> forces,

@@ -103,8 +103,7 @@ TEST(MultilevelParallel, TransfersAreTransposed) {
 }
 
 /// Two steps leave T_2 of the rate, scaled to 1 where nothing moves, of every rough move; with all
-/// rates below the largest one they never move farther than 1 + 1 / T_2 times the way. Elements
-/// over the rim of coarse scales have larger rates than those within.
+/// rates below the largest one they never move farther than 1 + 1 / T_2 times the way.
 TEST(MultilevelParallel, PlainCellsMoveAlikeOnBothSidesAndNotTooFar) {
   constexpr double middle = 1.15 / 0.85;
   const double farthest = 1.0 + 1.0 / (2.0 * middle * middle - 1.0);
