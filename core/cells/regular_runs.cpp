@@ -70,34 +70,6 @@ void RegularRuns::find_mirrored() {
   }
 }
 
-/// Calls store(k, force) with the place of every cell's x among the unknowns and its force K x.
-template <class Store>
-void RegularRuns::for_each_force(const double* x, const Store& store) const {
-  using Place = Eigen::Map<const Pair>;
-  const Mirrored m = mirrored_;
-  for (const RegularRun& run : runs_) {
-    const double *below = x + 2 * std::ptrdiff_t(run.below),
-                 *same = x + 2 * std::ptrdiff_t(run.node),
-                 *above = x + 2 * std::ptrdiff_t(run.above);
-    const std::ptrdiff_t first = 2 * std::ptrdiff_t(run.node),
-                         count = 2 * std::ptrdiff_t(run.count);
-    // sums and differences of the rows above and below: left, here, right
-    Pair sum_left = Place(above - 2) + Place(below - 2), sum = Place(above) + Place(below);
-    Pair turn_left = Place(above - 2) - Place(below - 2), turn = Place(above) - Place(below);
-    for (std::ptrdiff_t k = 0; k < count; k += 2) {
-      const Pair sum_right = Place(above + k + 2) + Place(below + k + 2);
-      const Pair turn_right = Place(above + k + 2) - Place(below + k + 2);
-      const Pair across = turn_right - turn_left;
-      store(first + k, m.centre * Place(same + k) +
-                           m.beside * (Place(same + k - 2) + Place(same + k + 2)) +
-                           m.upright * sum + m.corner * (sum_left + sum_right) +
-                           m.cross * Pair(across.reverse()));
-      sum_left = sum, sum = sum_right;
-      turn_left = turn, turn = turn_right;
-    }
-  }
-}
-
 void RegularRuns::apply(std::span<const double> x, std::span<double> forces) const {
   double* out = forces.data();
   for_each_force(x.data(),

@@ -40,6 +40,10 @@ class RegularRuns {
   void apply(std::span<const double> x, std::span<double> forces) const;
   /// forces += K x for the cells of all runs.
   void add(std::span<const double> x, std::span<double> forces) const;
+  /// Calls store(k, force) with the place of every cell's x among the unknowns and its force K x,
+  /// an array of two.
+  template <class Store>
+  void for_each_force(const double* x, const Store& store) const;
   /// residual = forces - K x for the cells of all runs.
   void set_residual(std::span<const double> forces, std::span<const double> x,
                     std::span<double> residual) const;
@@ -57,13 +61,38 @@ class RegularRuns {
   };
 
   void find_mirrored();
-  template <class Store>
-  void for_each_force(const double* x, const Store& store) const;
 
   std::vector<RegularRun> runs_;
   Stencil stencil_{};
   Mirrored mirrored_;
   Eigen::Matrix2d inverse_ = Eigen::Matrix2d::Zero();
 };
+
+template <class Store>
+void RegularRuns::for_each_force(const double* x, const Store& store) const {
+  using Place = Eigen::Map<const Pair>;
+  const Mirrored m = mirrored_;
+  for (const RegularRun& run : runs_) {
+    const double *below = x + 2 * std::ptrdiff_t(run.below),
+                 *same = x + 2 * std::ptrdiff_t(run.node),
+                 *above = x + 2 * std::ptrdiff_t(run.above);
+    const std::ptrdiff_t first = 2 * std::ptrdiff_t(run.node),
+                         count = 2 * std::ptrdiff_t(run.count);
+    // sums and differences of the rows above and below: left, here, right
+    Pair sum_left = Place(above - 2) + Place(below - 2), sum = Place(above) + Place(below);
+    Pair turn_left = Place(above - 2) - Place(below - 2), turn = Place(above) - Place(below);
+    for (std::ptrdiff_t k = 0; k < count; k += 2) {
+      const Pair sum_right = Place(above + k + 2) + Place(below + k + 2);
+      const Pair turn_right = Place(above + k + 2) - Place(below + k + 2);
+      const Pair across = turn_right - turn_left;
+      store(first + k, m.centre * Place(same + k) +
+                           m.beside * (Place(same + k - 2) + Place(same + k + 2)) +
+                           m.upright * sum + m.corner * (sum_left + sum_right) +
+                           m.cross * Pair(across.reverse()));
+      sum_left = sum, sum = sum_right;
+      turn_left = turn, turn = turn_right;
+    }
+  }
+}
 
 }  // namespace cdca

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/plain_cells.hpp"
 
+#include "core/base/marked.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -66,11 +68,14 @@ double largest_rate(const PlainStiffness& element) {
 PlainCells::PlainCells(const LocalMesh& mesh, const CellUnknowns& unknowns,
                        const CellStiffness& cells,
                        const std::vector<PlainStiffness>& whole_elements,
-                       const std::vector<GlobalId>& near_cracks) {
+                       const std::vector<GlobalId>& near_cracks)
+    : cells_(&cells),
+      inverse_(cells.regular().diagonal().inverse()),
+      step_(std::size_t(cells.owned()), 0.0) {
   find_damping(whole_elements);
-  find_outer(mesh, cells, near_cracks);
-  lay_inner(cells.regular(), cells.owned());
-  lay_outer(mesh, unknowns, cells);
+  lay_regular(cells.regular(), cells.owned());
+  find_irregular(mesh, near_cracks);
+  lay_halo(mesh, unknowns);
 }
 
 void PlainCells::find_damping(const std::vector<PlainStiffness>& whole_elements) {
@@ -83,28 +88,39 @@ void PlainCells::find_damping(const std::vector<PlainStiffness>& whole_elements)
   second_ = -2.0 / (r * r) / at_zero;
 }
 
-void PlainCells::lay_inner(const RegularRuns& regular, LocalId owned) {
-  const Eigen::Matrix2d inverse = regular.diagonal().inverse();
-  std::vector<RegularRun> inner;
+void PlainCells::lay_regular(const RegularRuns& regular, LocalId owned) {
+  std::vector<RegularRun> inner, beside;
   LocalId end = 0;
   const auto close_gap = [&](LocalId next) {
     if (next > end) gaps_.push_back({end, next - end});
   };
+  std::vector<char> near(std::size_t(owned / 2), 0);
   for (const RegularRun& run : regular.runs()) {
-    LocalId outer = run.node;
-    const auto add_outer = [&](LocalId next) {
-      for (; outer < next; ++outer) outer_.push_back({2 * outer, of_run, inverse});
+    LocalId done = 0;
+    const auto add_beside = [&](LocalId next) {
+      if (next == done) return;
+      beside.push_back({run.node + done, next - done, run.below + done, run.above + done});
+      const RegularRun& added = beside.back();
+      for (const LocalId first : {added.below, added.node, added.above})
+        std::fill_n(near.begin() + first - 1, added.count + 2, char(1));
     };
     for (const RegularRun& part : inner_parts(regular.runs(), run)) {
       inner.push_back(part);
       close_gap(2 * part.node);
       end = 2 * (part.node + part.count);
-      add_outer(part.node);
-      outer = part.node + part.count;
+      add_beside(part.node - run.node);
+      done = part.node + part.count - run.node;
     }
-    add_outer(run.node + run.count);
+    add_beside(run.count);
   }
   close_gap(owned);
+  for (const RegularRun& run : regular.runs()) {
+    for (const LocalId k : marked({near.data() + run.node, std::size_t(run.count)})) {
+      const LocalId u = 2 * (run.node + k);
+      if (near_.empty() || near_.back().first + near_.back().count < u) near_.push_back({u, 0});
+      near_.back().count += 2;
+    }
+  }
   RegularRuns::Stencil both = regular.stencil();
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
@@ -112,26 +128,26 @@ void PlainCells::lay_inner(const RegularRuns& regular, LocalId owned) {
       for (Eigen::Index c = 0; c < 2; ++c)
         for (Eigen::Index d = 0; d < 2; ++d)
           block(c, d) = both[row][std::size_t(c)][2 * column + std::size_t(d)];
-      block = second_ * inverse * block * inverse;
-      if (row == 1 && column == 1) block += first_ * inverse;
+      block = second_ * inverse_ * block * inverse_;
+      if (row == 1 && column == 1) block += first_ * inverse_;
       for (Eigen::Index c = 0; c < 2; ++c)
         for (Eigen::Index d = 0; d < 2; ++d)
           both[row][std::size_t(c)][2 * column + std::size_t(d)] = block(c, d);
     }
   }
   inner_ = RegularRuns(std::move(inner), both);
+  beside_ = RegularRuns(std::move(beside), regular.stencil());
 }
 
-void PlainCells::find_outer(const LocalMesh& mesh, const CellStiffness& cells,
-                            const std::vector<GlobalId>& near_cracks) {
+void PlainCells::find_irregular(const LocalMesh& mesh, const std::vector<GlobalId>& near_cracks) {
   // rows of plain unknowns come first, two and two
   auto near = near_cracks.begin();
-  auto held = cells.held().begin();
+  auto held = cells_->held().begin();
   const auto is_held = [&](LocalId u) {
-    while (held != cells.held().end() && *held < u) ++held;
-    return held != cells.held().end() && *held == u;
+    while (held != cells_->held().end() && *held < u) ++held;
+    return held != cells_->held().end() && *held == u;
   };
-  const StiffnessRows& rows = cells.rows();
+  const StiffnessRows& rows = cells_->rows();
   for (std::size_t row = 0; row < rows.unknown.size(); row += 2) {
     const LocalId u = rows.unknown[row], n = u / 2;
     if (!mesh.owns(n)) break;
@@ -147,108 +163,82 @@ void PlainCells::find_outer(const LocalMesh& mesh, const CellStiffness& cells,
       }
     }
     const bool x = is_held(u), y = is_held(u + 1);
-    outer_.push_back({u, row, inverse_of_free(own, x, y)});
+    irregular_.push_back({u, row, inverse_of_free(own, x, y)});
   }
 }
 
-void PlainCells::lay_outer(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                           const CellStiffness& cells) {
-  // where the inverse of a node's own block is
-  constexpr int regular = -1, of_window = -2;
-  std::vector<int> place(std::size_t(mesh.owned_nodes()), of_window);
-  for (const RegularRun& run : cells.regular().runs())
-    std::fill_n(place.begin() + run.node, run.count, regular);
-  for (std::size_t k = 0; k < outer_.size(); ++k)
-    place[std::size_t(outer_[k].unknown / 2)] = int(k);
-  const Eigen::Matrix2d of_regular = cells.regular().diagonal().inverse();
-
-  StiffnessRows& after = after_step_;
-  // in order of columns: two of one node follow each other
-  const auto add_entry = [&](LocalId column, double value) {
-    const LocalId n = column / 2;
-    if (n >= mesh.owned_nodes() || place[std::size_t(n)] == of_window) return;
-    const int at = place[std::size_t(n)];
-    const Eigen::Matrix2d& inverse = at == regular ? of_regular : outer_[std::size_t(at)].inverse;
-    if (after.column.size() == after.start.back() || after.column.back() != 2 * n + 1) {
-      after.column.insert(after.column.end(), {2 * n, 2 * n + 1});
-      after.value.insert(after.value.end(), {0.0, 0.0});
-    }
-    for (Eigen::Index d = 0; d < 2; ++d)
-      after.value[after.value.size() - 2 + std::size_t(d)] += value * inverse(column % 2, d);
-  };
-  constexpr std::size_t usual = 18;  // of a row, in nine cells
-  after.start.reserve(2 * outer_.size());
-  after.column.reserve(2 * usual * outer_.size());
-  after.value.reserve(2 * usual * outer_.size());
-  const auto end_row = [&] { after.start.push_back(after.column.size()); };
-  const StiffnessRows& rows = cells.rows();
-  const auto add_row = [&](std::size_t row) {
-    for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
-      add_entry(rows.column[k], rows.value[k]);
-    end_row();
-  };
-  const auto& runs = cells.regular().runs();
-  auto run = runs.begin();  // cells of runs come in order
-  for (const Cell& cell : outer_) {
-    const LocalId n = cell.unknown / 2;
-    if (cell.row != of_run) {
-      for (std::size_t c = 0; c < 2; ++c) add_row(cell.row + c);
-      continue;
-    }
-    while (n >= run->node + run->count) ++run;
-    const LocalId k = n - run->node;
-    const std::array<LocalId, 3> middle{run->below + k, n, run->above + k};
-    for (std::size_t c = 0; c < 2; ++c) {
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t m = 0; m < 6; ++m)
-          add_entry(2 * (middle[r] - 1) + LocalId(m), cells.regular().stencil()[r][c][m]);
-      }
-      end_row();
-    }
-  }
-  const LocalId ghosts = LocalId(2 * outer_.size());
-  for (LocalId u = unknowns.owned(); u < unknowns.count(); ++u) {
-    const std::ptrdiff_t row = rows.find(u);
-    row < 0 ? end_row() : add_row(std::size_t(row));
-  }
+void PlainCells::lay_halo(const LocalMesh& mesh, const CellUnknowns& unknowns) {
+  const auto& with_rows = cells_->rows().unknown;
+  first_ghost_row_ = std::size_t(
+      std::lower_bound(with_rows.begin(), with_rows.end(), unknowns.owned()) - with_rows.begin());
+  const LocalId ghosts = LocalId(2 * irregular_.size());
   const LocalId elsewhere = ghosts + (unknowns.count() - unknowns.owned());
-  end_row();
   reached_.assign(std::size_t(elsewhere) + 1, 0.0);
 
   std::vector<SharedUnknowns> shared = unknowns.shared(mesh);
   for (SharedUnknowns& s : shared) {
     for (LocalId& u : s.owned) {
-      const LocalId n = u / 2;
-      const int at = n < mesh.owned_nodes() ? place[std::size_t(n)] : of_window;
-      u = at < 0 ? elsewhere : 2 * LocalId(at) + u % 2;
+      const auto cell =
+          std::lower_bound(irregular_.begin(), irregular_.end(), u - u % 2,
+                           [](const Cell& c, LocalId unknown) { return c.unknown < unknown; });
+      const bool counts = cell != irregular_.end() && cell->unknown == u - u % 2;
+      u = counts ? 2 * LocalId(cell - irregular_.begin()) + u % 2 : elsewhere;
     }
     for (LocalId& u : s.ghosts) u += ghosts - unknowns.owned();
   }
-  halo_ = Halo(cells.communicator(), std::move(shared));
+  halo_ = Halo(cells_->communicator(), std::move(shared));
 }
 
-void PlainCells::move_outer(std::span<const double> forces, std::span<double> moves) const {
-  for (std::size_t row = 0; row < reached_.size(); ++row)
-    reached_[row] = after_step_.times(row, forces, LocalId(forces.size()));
+void PlainCells::take_first_step(std::span<const double> forces) const {
+  const auto step = [&](std::size_t u, const Eigen::Matrix2d& inverse) {
+    const Vec2 move = inverse * Vec2(forces[u], forces[u + 1]);
+    step_[u] = move.x();
+    step_[u + 1] = move.y();
+  };
+  for (const Range& range : near_)
+    for (LocalId k = 0; k < range.count; k += 2) step(std::size_t(range.first + k), inverse_);
+  for (const Cell& cell : irregular_) step(std::size_t(cell.unknown), cell.inverse);
+}
+
+void PlainCells::find_reached() const {
+  const StiffnessRows& rows = cells_->rows();
+  const LocalId owned = cells_->owned();
+  for (std::size_t k = 0; k < irregular_.size(); ++k) {
+    reached_[2 * k] = rows.times(irregular_[k].row, step_, owned);
+    reached_[2 * k + 1] = rows.times(irregular_[k].row + 1, step_, owned);
+  }
+  const std::size_t ghosts = 2 * irregular_.size();
+  std::fill(reached_.begin() + std::ptrdiff_t(ghosts), reached_.end(), 0.0);
+  for (std::size_t row = first_ghost_row_; row < rows.unknown.size(); ++row)
+    reached_[ghosts + std::size_t(rows.unknown[row] - owned)] = rows.times(row, step_, owned);
   halo_.add_forces(reached_);
-  for (std::size_t k = 0; k < outer_.size(); ++k) {
-    const auto u = std::size_t(outer_[k].unknown);
-    const Vec2 force(forces[u], forces[u + 1]), reached(reached_[2 * k], reached_[2 * k + 1]);
-    const Vec2 move = outer_[k].inverse * (first_ * force + second_ * reached);
+}
+
+void PlainCells::move_others(std::span<const double> forces, std::span<double> moves) const {
+  take_first_step(forces);
+  const auto add = [&](std::size_t u, const Eigen::Matrix2d& inverse, const Vec2& reached) {
+    const Vec2 move = inverse * (first_ * Vec2(forces[u], forces[u + 1]) + second_ * reached);
     moves[u] += move.x();
     moves[u + 1] += move.y();
-  }
+  };
+  beside_.for_each_force(step_.data(), [&](std::ptrdiff_t u, const Eigen::Array2d& reached) {
+    add(std::size_t(u), inverse_, reached.matrix());
+  });
+  find_reached();
+  for (std::size_t k = 0; k < irregular_.size(); ++k)
+    add(std::size_t(irregular_[k].unknown), irregular_[k].inverse,
+        Vec2(reached_[2 * k], reached_[2 * k + 1]));
 }
 
 void PlainCells::move(std::span<const double> forces, std::span<double> moves) const {
   inner_.add(forces, moves);
-  move_outer(forces, moves);
+  move_others(forces, moves);
 }
 
 void PlainCells::start(std::span<const double> forces, std::span<double> moves) const {
   inner_.apply(forces, moves);
   for (const Range& gap : gaps_) std::fill_n(moves.begin() + gap.first, gap.count, 0.0);
-  move_outer(forces, moves);
+  move_others(forces, moves);
 }
 
 }  // namespace cdca

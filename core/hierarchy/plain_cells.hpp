@@ -32,10 +32,9 @@ class PlainCells {
 
   struct Cell {
     LocalId unknown;          ///< x; y follows
-    std::size_t row;          ///< of x among the rows of all cells, or of_run
+    std::size_t row;          ///< of x among the rows of all cells
     Eigen::Matrix2d inverse;  ///< D^-1; rows of held unknowns are 0
   };
-  static constexpr auto of_run = std::size_t(-1);  ///< the common stencil
   /// Consecutive own unknowns.
   struct Range {
     LocalId first;
@@ -43,22 +42,31 @@ class PlainCells {
   };
 
   void find_damping(const std::vector<PlainStiffness>& whole_elements);
-  /// Regular cells all of whose neighbours are regular: both steps are one stencil there.
-  void lay_inner(const RegularRuns& regular, LocalId owned);
-  void find_outer(const LocalMesh& mesh, const CellStiffness& cells,
-                  const std::vector<GlobalId>& near_cracks);
-  void lay_outer(const LocalMesh& mesh, const CellUnknowns& unknowns, const CellStiffness& cells);
-  void move_outer(std::span<const double> forces, std::span<double> moves) const;
+  /// Tells regular cells all of whose neighbours are regular, where both steps are one stencil,
+  /// from those beside others.
+  void lay_regular(const RegularRuns& regular, LocalId owned);
+  void find_irregular(const LocalMesh& mesh, const std::vector<GlobalId>& near_cracks);
+  void lay_halo(const LocalMesh& mesh, const CellUnknowns& unknowns);
+  /// Of all cells but the inner ones.
+  void move_others(std::span<const double> forces, std::span<double> moves) const;
+  void take_first_step(std::span<const double> forces) const;
+  /// What this step has done to irregular cells.
+  void find_reached() const;
 
+  const CellStiffness* cells_ = nullptr;
   double first_ = 0.0, second_ = 0.0;  ///< a and b
   RegularRuns inner_;
   std::vector<Range> gaps_;  ///< between the runs of inner cells
-  std::vector<Cell> outer_;  ///< the others
-  /// K D^-1: what the forces on own cells do, after one step, to outer cells (x and y of each) and
-  /// to unknowns of ghosts. Rows without entries stand for what does not count.
-  StiffnessRows after_step_;
-  Halo halo_;                            ///< of the rows
-  mutable std::vector<double> reached_;  ///< one value per row
+  RegularRuns beside_;       ///< regular cells beside irregular ones
+  std::vector<Range> near_;  ///< these, and the regular cells round them
+  Eigen::Matrix2d inverse_;  ///< D^-1 of regular cells
+  std::vector<Cell> irregular_;
+  std::size_t first_ghost_row_ = 0;  ///< among the rows of all cells
+  Halo halo_;                        ///< of reached_
+  /// D^-1 forces of the cells that others need it of, 0 elsewhere; own unknowns.
+  mutable std::vector<double> step_;
+  /// K of step_: x and y of irregular cells, then ghosts, then a place for what does not count.
+  mutable std::vector<double> reached_;
 };
 
 /// The largest eigenvalue of D^-1 K of one element, D the blocks of its corners: no assembly of
