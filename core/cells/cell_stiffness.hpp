@@ -53,6 +53,10 @@ class CellStiffness final : public CellSystem {
   void return_forces(std::span<double> forces) const override { halo_.add_forces(forces); }
   void clear_held(std::span<double> values) const override;
 
+  /// forces -= K displacements of held unknowns alone; those of others are not read. Forces on
+  /// ghosts are 0 on entry and on return. Collective.
+  void subtract_held(std::span<const double> displacements, std::span<double> forces) const;
+
   /// Adds what the weak springs, `share` times as stiff, would pull with if they stood at zero, on
   /// own cells, N/m.
   void add_spring_forces(std::span<const double> displacements, std::span<double> forces,

@@ -49,9 +49,7 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   const CellStiffness& cells = model.stiffness();
   std::vector<double> product(all, 0.0);
   cells.apply(model.state(), product);
-  std::vector<double> weak(all, 0.0);
-  cells.add_spring_forces(model.state(), weak);
-  for (std::size_t k = 0; k < all; ++k) product[k] -= weak[k];
+  cells.add_spring_forces(model.state(), product, -1.0);
   result.strain_energy = 0.5 * cells.dot(model.state(), product) + model.contact_energy();
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
   result.supports.assign(all, 0.0);

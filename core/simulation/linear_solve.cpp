@@ -28,18 +28,13 @@ double norm(const CellSystem& cells, const std::vector<double>& forces) {
 }  // namespace
 
 SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
-                        Forces& given, const Accuracy& accuracy) {
+                        const Forces& given, const Accuracy& accuracy) {
   const CellStiffness& cells = model.stiffness();
   const SolverSpec& spec = model.spec().solver;
   const auto own = std::size_t(cells.owned());
   std::vector<double> forces(std::size_t(cells.count()), 0.0);
-  if (given.version != model.stiffness_version()) {
-    given.pulled.assign(forces.size(), 0.0);
-    cells.apply(given.held, given.pulled);
-    given.version = model.stiffness_version();
-  }
-  for (std::size_t k = 0; k < own; ++k)
-    forces[k] = given.external[k] + given.faces[k] - given.pulled[k];
+  for (std::size_t k = 0; k < own; ++k) forces[k] = given.external[k] + given.faces[k];
+  cells.subtract_held(given.held, forces);
   cells.clear_held(forces);
   const double without_springs = norm(cells, forces);
   // weak springs of loose bodies stand where the bodies are, or where they are to be held

@@ -11,21 +11,19 @@ namespace cdca {
 
 /// On own cells, in one solve.
 struct Forces {
-  std::vector<double> external;     ///< of the loads, N per metre of thickness
-  std::vector<double> faces;        ///< of given tractions between touching faces, likewise
-  std::vector<double> held;         ///< prescribed displacements, m
-  std::vector<double> pulled = {};  ///< what they exert, set in the solve
+  std::vector<double> external;  ///< of the loads, N per metre of thickness
+  std::vector<double> faces;     ///< of given tractions between touching faces, likewise
+  std::vector<double> held;      ///< prescribed displacements, m
   /// State in which weak springs pull with nothing; the model's, if empty.
   std::vector<double> anchor = {};
   /// Weak springs are drag: other forces alone say how exact solves are.
   bool drags = false;
-  std::int64_t version = -1;  ///< of the stiffness that they exert it with
 };
 
 /// Moves the model's state to where these forces are in balance, ghosts included. The report's
 /// residual and scale are relative to all forces. Throws SolveError when the solver does not
 /// converge. Collective.
 SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
-                        Forces& given, const Accuracy& accuracy = {});
+                        const Forces& given, const Accuracy& accuracy = {});
 
 }  // namespace cdca

@@ -162,7 +162,6 @@ void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, null
 void Model::renew_stiffness(double weak_share) {
   weak_share_ = weak_share;
   if (hierarchy_.count() == 1) {
-    ++stiffness_version_;
     stiffness_->turn_springs(mesh_, unknowns_, *elements_, springs(weak_share));
     hierarchy_.turn_springs();
     return;
@@ -178,7 +177,6 @@ std::vector<GlobalId> Model::turned_elements() const {
 }
 
 void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
-  ++stiffness_version_;
   weak_share_ = weak_share;
   const auto held = supports_.flags(unknowns_.count());
   const auto weak = springs(weak_share);

@@ -106,8 +106,6 @@ class Model {
   const ElementCuts& cuts() const { return cuts_; }
   const std::vector<TipZone>& zones() const { return zones_; }
   const CellStiffness& stiffness() const { return *stiffness_; }
-  /// Changes with every build_stiffness() and renew_stiffness().
-  std::int64_t stiffness_version() const { return stiffness_version_; }
   /// K of the active tips under the loads of a load factor, in the state as it is. wanted: which
   /// tips; empty for all. Collective.
   std::vector<StressIntensity> stress_intensities(double load_factor,
@@ -193,9 +191,8 @@ class Model {
   std::unique_ptr<FinestElements> elements_;
   std::unique_ptr<CellStiffness> stiffness_;
   SpringsOfElements built_springs_;  ///< of the patches, in the stiffness
-  std::int64_t stiffness_version_ = 0;
-  bool all_held_ = false;  ///< by weak springs
-  double rubbed_ = 0.0;    ///< work of friction on the way to the next equilibrium, J per metre
+  bool all_held_ = false;            ///< by weak springs
+  double rubbed_ = 0.0;  ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
   std::optional<FacesOfBody> condensed_;
   double weak_share_ = 0.0;  ///< in the stiffness
