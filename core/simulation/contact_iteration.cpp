@@ -9,6 +9,7 @@
 #include "core/simulation/face_turns.hpp"
 
 #include <sstream>
+#include <utility>
 
 namespace cdca {
 
@@ -19,10 +20,65 @@ constexpr int most_creeping = 600;  ///< turns of creep
 /// cheap with a condensed body, and comes through.
 constexpr int few_restarts = 2;
 
-void set_held(const Model& model, const std::vector<double>& held, std::vector<double>& state) {
+void set_held(Model& model, const std::vector<double>& held) {
+  std::vector<double>& state = model.state();
   model.stiffness().clear_held(state);
   for (std::size_t k = 0; k < held.size(); ++k) state[k] += held[k];
   model.stiffness().halo().copy_state(state);
+}
+
+/// The springs of a face that touches and holds on to the other one, whatever friction can hold.
+ContactAnswer stuck(const ContactSpec& law) {
+  constexpr double usual = 0.1;  // of the normal stiffness
+  ContactAnswer answer;
+  answer.state = ContactState::stick;
+  answer.normal_spring = law.normal_stiffness;
+  answer.tangential_spring =
+      law.tangential_stiffness > 0.0 ? law.tangential_stiffness : usual * law.normal_stiffness;
+  return answer;
+}
+
+/// Faces that touch are stuck, and exert what they do now. gaps: where they are now.
+void stick(ContactPatches& contact, const std::vector<ContactGap>& gaps) {
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    ContactPatch& p = contact.patches()[k];
+    const ContactSpec& law = contact.law_of(p);
+    if (p.now.state == ContactState::open || law.law == ContactLaw::cohesive) continue;
+    const ContactAnswer before = std::exchange(p.now, stuck(law));
+    p.now.normal_zero = gaps[k].normal - before.normal / p.now.normal_spring;
+    p.now.tangential_zero = gaps[k].tangential - before.tangential / p.now.tangential_spring;
+  }
+}
+
+/// Opens stuck faces that would have to pull, and sticks open ones that would overlap; false if
+/// there are none.
+bool open_or_stick(ContactPatches& contact, const std::vector<ContactGap>& gaps) {
+  bool any = false;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    ContactPatch& p = contact.patches()[k];
+    const ContactSpec& law = contact.law_of(p);
+    if (law.law == ContactLaw::cohesive || law.law == ContactLaw::none) continue;
+    const bool open = p.now.state == ContactState::open;
+    if (open == (gaps[k].normal > p.now.normal_zero)) continue;
+    p.now = open ? stuck(law) : ContactAnswer();
+    any = true;
+  }
+  return any;
+}
+
+/// The loads and supports change while faces may open, but do not slip: from then on loads are at
+/// rest, and bodies creep. gaps: from where faces are now.
+Equilibrium::BeforeCreep load_with_stuck_faces(Model& model, ContactSolves& solves,
+                                               const Forces& given,
+                                               const std::vector<ContactGap>& gaps) {
+  constexpr int most = 20;
+  stick(model.contact(), gaps);
+  for (int k = 0; k < most; ++k) {
+    model.renew_stiffness();
+    solves.once({});
+    if (!open_or_stick(model.contact(), solves.gaps())) break;
+  }
+  return {model.state(), support_forces(model, given, inner_forces(model))};
 }
 
 SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_factor,
@@ -30,10 +86,14 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   constexpr int most = 500;
   const double enough = 10 * model.spec().solver.tolerance;
   ContactSolves solves(model, solver, load_factor, given);
-  set_held(model, given.held, model.state());
   const Model::ContactMemory at_first = model.contact_memory();
-  std::vector<double> here = model.origin();
-  set_held(model, given.held, here);
+  const std::vector<double> origin = model.origin();
+  set_held(model, given.held);
+  const auto go_back = [&] {
+    model.remember(at_first);
+    model.state() = origin;
+    set_held(model, given.held);
+  };
   FaceTurns turns(model, solves, given, {enough, most});
   int crept_turns = 0;
   const auto note = [&](double unbalanced) {
@@ -43,9 +103,18 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   };
   const auto creep = [&] {
     // friction depends on the way, which begins where the faces have been
+    go_back();
+    given.anchor.clear();
+    Equilibrium::BeforeCreep loaded;
+    try {
+      const auto gaps = model.contact_spots().gaps(origin, model.contact(), model.communicator());
+      loaded = load_with_stuck_faces(model, solves, given, gaps);
+    } catch (const SolveError&) {
+      return false;
+    }
     model.remember(at_first);
-    model.state() = here;
     const Crept crept = creep_to_balance(model, solves, given, enough, most_creeping);
+    if (crept.found) result.before_creep = std::move(loaded);
     crept_turns += crept.turns + crept.steps;
     note(crept.unbalanced);
     return crept.found;
@@ -56,8 +125,7 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
       return turns.turn();
     } catch (const SolveError&) {
       if (!model.has_weak_springs() || !FaceBarrier::suits(model.contact())) throw;
-      model.remember(at_first);
-      model.state() = here;
+      go_back();
       return FaceTurns::End::jammed;
     }
   };

@@ -29,15 +29,24 @@ void EnergyLedger::keep(const Model& model, const Equilibrium& e, double factor)
   for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] += e.supports[k];
 }
 
+EnergyLedger::Loaded EnergyLedger::after_loads(const Model& model, const Equilibrium& e) {
+  const CellSystem& cells = model.stiffness();
+  if (!e.before_creep) return {model.state(), e.supports, 0.0};
+  const auto& [state, supports] = *e.before_creep;
+  const double work = cells.dot(e.external, model.state()) - cells.dot(e.external, state);
+  return {state, supports, work};
+}
+
 void EnergyLedger::new_loads(const Model& model, const Equilibrium& e) {
+  const Loaded loaded = after_loads(model, e);
   const std::size_t n = model.state().size();
   std::vector<double> mean(n), move(n);
   const bool first = state_.empty();
   for (std::size_t k = 0; k < n; ++k) {
-    mean[k] = 0.5 * (e.external[k] + e.supports[k] + (first ? 0.0 : forces_[k]));
-    move[k] = model.state()[k] - (first ? 0.0 : state_[k]);
+    mean[k] = 0.5 * (e.external[k] + loaded.supports[k] + (first ? 0.0 : forces_[k]));
+    move[k] = loaded.state[k] - (first ? 0.0 : state_[k]);
   }
-  external_work_ += model.stiffness().dot(mean, move);
+  external_work_ += model.stiffness().dot(mean, move) + loaded.creep_work;
   keep(model, e, 0.0);
 }
 
@@ -53,13 +62,14 @@ void EnergyLedger::new_factor(const Model& model, const Equilibrium& e, double f
     factor_ = factor;
     return;
   }
-  const double loads = model.stiffness().dot(e.external, model.state()) / factor;
-  const double supports = model.stiffness().dot(e.supports, model.state()) / factor;
+  const Loaded loaded = after_loads(model, e);
+  const double loads = model.stiffness().dot(e.external, loaded.state) / factor;
+  const double supports = model.stiffness().dot(loaded.supports, loaded.state) / factor;
   const double loads_before = factor_ > 0 ? potential_ / factor_ : 0.0;
   const double supports_before = factor_ > 0 ? support_potential_ / factor_ : 0.0;
   // forces s f on displacements u; supports R on displacements s g
   external_work_ += 0.5 * (factor_ + factor) * (loads - loads_before) +
-                    0.5 * (supports_before + supports) * (factor - factor_);
+                    0.5 * (supports_before + supports) * (factor - factor_) + loaded.creep_work;
   keep(model, e, factor);
 }
 

@@ -26,6 +26,8 @@ class EnergyLedger {
 
   /// The next equilibrium with the same cracks as the last one, under other loads: trapezoidal,
   /// which is exact for a linear body, and balances what friction takes (also trapezoidal) for any.
+  /// Where bodies have crept there, the loads have changed before, and were at rest meanwhile; so
+  /// also in new_factor().
   void new_loads(const Model& model, const Equilibrium& equilibrium);
   /// The next equilibrium under the same loads with longer cracks.
   void new_cracks(const Model& model, const Equilibrium& equilibrium);
@@ -51,6 +53,12 @@ class EnergyLedger {
   const std::vector<double>& forces() const { return forces_; }
 
  private:
+  /// Where the loads have done their work, and what they do from there on, at rest.
+  struct Loaded {
+    const std::vector<double>&state, &supports;
+    double creep_work;
+  };
+  static Loaded after_loads(const Model& model, const Equilibrium& equilibrium);
   void keep(const Model& model, const Equilibrium& equilibrium, double factor);
 
   double external_work_ = 0.0;

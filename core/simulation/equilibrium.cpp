@@ -47,17 +47,14 @@ Equilibrium find_equilibrium(Model& model, const EquilibriumSolver& solver, doub
   }
 
   const CellStiffness& cells = model.stiffness();
-  std::vector<double> product(all, 0.0);
-  cells.apply(model.state(), product);
-  cells.add_spring_forces(model.state(), product, -1.0);
-  result.strain_energy = 0.5 * cells.dot(model.state(), product) + model.contact_energy();
+  const std::vector<double> inner = inner_forces(model);
+  result.strain_energy = 0.5 * cells.dot(model.state(), inner) + model.contact_energy();
+  result.supports = support_forces(model, given, inner);
   std::vector<double> sums(2 * model.spec().boundaries.size(), 0.0);
-  result.supports.assign(all, 0.0);
   for (const HeldUnknown& h : model.supports().held()) {
-    const auto u = std::size_t(h.unknown);
-    result.supports[u] = product[u] - given.external[u] - given.faces[u];
     // of a shifted near-tip function only the pieces' unknowns carry a resultant
-    if (!h.samples.empty()) sums[2 * h.block + std::size_t(h.component)] += result.supports[u];
+    if (!h.samples.empty())
+      sums[2 * h.block + std::size_t(h.component)] += result.supports[std::size_t(h.unknown)];
   }
   cells.communicator().sum(std::span<double>(sums));
   for (std::size_t b = 0; 2 * b < sums.size(); ++b)

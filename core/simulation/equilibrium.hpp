@@ -5,6 +5,8 @@
 #include "core/simulation/model.hpp"
 #include "core/solver/equilibrium_solver.hpp"
 
+#include <optional>
+
 namespace cdca {
 
 std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
@@ -23,6 +25,12 @@ struct Equilibrium {
       external;  ///< nodal forces of the loads on own cells, N per metre of thickness
   std::vector<double>
       supports;  ///< nodal forces of the supports, likewise; 0 where nothing is held
+  /// Where bodies have crept here: the equilibrium that they have crept from. There the loads were
+  /// what they are here, and faces that touched stuck.
+  struct BeforeCreep {
+    std::vector<double> state, supports;
+  };
+  std::optional<BeforeCreep> before_creep;
 };
 
 /// A body that has come apart carries nothing: no displacement, no force.

@@ -58,4 +58,22 @@ SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double lo
   return report;
 }
 
+std::vector<double> inner_forces(const Model& model) {
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> forces(std::size_t(cells.count()), 0.0);
+  cells.apply(model.state(), forces);
+  cells.add_spring_forces(model.state(), forces, -1.0);
+  return forces;
+}
+
+std::vector<double> support_forces(const Model& model, const Forces& given,
+                                   const std::vector<double>& inner) {
+  std::vector<double> forces(inner.size(), 0.0);
+  for (const HeldUnknown& h : model.supports().held()) {
+    const auto u = std::size_t(h.unknown);
+    forces[u] = inner[u] - given.external[u] - given.faces[u];
+  }
+  return forces;
+}
+
 }  // namespace cdca

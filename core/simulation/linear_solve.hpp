@@ -26,4 +26,10 @@ struct Forces {
 SolverReport solve_once(Model& model, const EquilibriumSolver& solver, double load_factor,
                         const Forces& given, const Accuracy& accuracy = {});
 
+/// K u of the model's state, without weak springs, N per metre of thickness. Collective.
+std::vector<double> inner_forces(const Model& model);
+/// Nodal forces of the supports on own cells, 0 where nothing is held. inner: as of inner_forces().
+std::vector<double> support_forces(const Model& model, const Forces& given,
+                                   const std::vector<double>& inner);
+
 }  // namespace cdca

@@ -36,26 +36,18 @@ Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, do
                   int halvings, Recorder& recorder, EnergyLedger& energy) {
   const Model::ContactMemory memory = model.contact_memory();
   const std::vector<double> state = model.state();
+  const FaceMotion faces = halvings == 0 ? FaceMotion::creeping : FaceMotion::balanced;
   try {
-    const Equilibrium equilibrium =
-        solve_recorded(model, solver, to, recorder, FaceMotion::balanced);
+    const Equilibrium equilibrium = solve_recorded(model, solver, to, recorder, faces);
     energy.new_loads(model, equilibrium);
     accept_contact(model, Model::Since::other_loads, energy);
     return equilibrium;
   } catch (const ContactError&) {
+    if (halvings == 0) throw;
   }
   model.remember(memory);
   model.state() = state;
   model.renew_stiffness();
-  if (halvings == 0) {
-    // first the loads, while faces keep to what they do; then the faces, while loads are at rest
-    energy.new_loads(model, solve_recorded(model, solver, to, recorder, FaceMotion::none));
-    accept_contact(model, Model::Since::other_loads, energy);
-    const Equilibrium equilibrium = solve_recorded(model, solver, to, recorder);
-    energy.new_cracks(model, equilibrium);
-    accept_contact(model, Model::Since::other_cracks, energy);
-    return equilibrium;
-  }
   const double middle = 0.5 * (from + to);
   reach(model, solver, from, middle, halvings - 1, recorder, energy);
   return reach(model, solver, middle, to, halvings - 1, recorder, energy);
