@@ -305,10 +305,10 @@ void CellStiffness::subtract_held(std::span<const double> displacements,
                                   std::span<double> forces) const {
   for (const LocalId u : held_) {
     const double displacement = displacements[std::size_t(u)];
-    const std::ptrdiff_t row = rows_.find(u);
-    if (displacement == 0.0 || row < 0) continue;
-    // K is symmetric: its row is its column
-    for (std::size_t k = rows_.start[std::size_t(row)]; k < rows_.start[std::size_t(row) + 1]; ++k)
+    if (displacement == 0.0) continue;
+    // held cells have rows of their own; K is symmetric: its row is its column
+    const auto row = std::size_t(rows_.find(u));
+    for (std::size_t k = rows_.start[row]; k < rows_.start[row + 1]; ++k)
       forces[std::size_t(rows_.column[k])] -= rows_.value[k] * displacement;
   }
   halo_.add_forces(forces);
