@@ -38,28 +38,38 @@ ContactAnswer stuck(const ContactSpec& law) {
   return answer;
 }
 
-/// Faces that touch are stuck, and exert what they do now. gaps: where they are now.
-void stick(ContactPatches& contact, const std::vector<ContactGap>& gaps) {
+/// Faces that touch are stuck, and exert what they do now. gaps: where they are now. compliances:
+/// of the body at every patch, m/Pa.
+void stick(ContactPatches& contact, const std::vector<ContactGap>& gaps,
+           const std::vector<double>& compliances) {
   for (std::size_t k = 0; k < gaps.size(); ++k) {
     ContactPatch& p = contact.patches()[k];
     const ContactSpec& law = contact.law_of(p);
     if (p.now.state == ContactState::open || law.law == ContactLaw::cohesive) continue;
     const ContactAnswer before = std::exchange(p.now, stuck(law));
-    p.now.normal_zero = gaps[k].normal - before.normal / p.now.normal_spring;
-    p.now.tangential_zero = gaps[k].tangential - before.tangential / p.now.tangential_spring;
+    // zeros are gaps with the body's share; those of springs that the law has come without it
+    const auto zero = [&](double spring, double of_law, double gap, double traction) {
+      return (1 + of_law * compliances[k]) * gap - (1 / spring + compliances[k]) * traction;
+    };
+    p.now.normal_zero =
+        zero(p.now.normal_spring, law.normal_stiffness, gaps[k].normal, before.normal);
+    p.now.tangential_zero = zero(p.now.tangential_spring, law.tangential_stiffness,
+                                 gaps[k].tangential, before.tangential);
   }
 }
 
 /// Opens stuck faces that would have to pull, and sticks open ones that would overlap; false if
 /// there are none.
-bool open_or_stick(ContactPatches& contact, const std::vector<ContactGap>& gaps) {
+bool open_or_stick(ContactPatches& contact, const std::vector<ContactGap>& gaps,
+                   const std::vector<double>& compliances) {
   bool any = false;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
     ContactPatch& p = contact.patches()[k];
     const ContactSpec& law = contact.law_of(p);
     if (law.law == ContactLaw::cohesive || law.law == ContactLaw::none) continue;
     const bool open = p.now.state == ContactState::open;
-    if (open == (gaps[k].normal > p.now.normal_zero)) continue;
+    const double gap = (1 + law.normal_stiffness * compliances[k]) * gaps[k].normal;
+    if (open == (gap > p.now.normal_zero)) continue;
     p.now = open ? stuck(law) : ContactAnswer();
     any = true;
   }
@@ -72,11 +82,13 @@ Equilibrium::BeforeCreep load_with_stuck_faces(Model& model, ContactSolves& solv
                                                const Forces& given,
                                                const std::vector<ContactGap>& gaps) {
   constexpr int most = 20;
-  stick(model.contact(), gaps);
+  ContactPatches& contact = model.contact();
+  const auto compliances = model.contact_spots().compliances(contact, model.communicator());
+  stick(contact, gaps, compliances);
   for (int k = 0; k < most; ++k) {
     model.renew_stiffness();
     solves.once({});
-    if (!open_or_stick(model.contact(), solves.gaps())) break;
+    if (!open_or_stick(contact, solves.gaps(), compliances)) break;
   }
   return {model.state(), support_forces(model, given, inner_forces(model))};
 }
@@ -87,7 +99,8 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
   const double enough = 10 * model.spec().solver.tolerance;
   ContactSolves solves(model, solver, load_factor, given);
   const Model::ContactMemory at_first = model.contact_memory();
-  const std::vector<double> origin = model.origin();
+  std::vector<double> origin = model.origin();
+  model.stiffness().halo().copy_state(origin);
   set_held(model, given.held);
   const auto go_back = [&] {
     model.remember(at_first);

@@ -5,6 +5,7 @@
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/simulation/contact_solves.hpp"
 #include "core/simulation/simulation.hpp"
+#include "tests/failing_solver.hpp"
 #include "tests/plates.hpp"
 
 #include <gtest/gtest.h>
@@ -187,6 +188,45 @@ TEST(CondensedBodyParallel, MovesItsFacesAsTheWholeBody) {
                       std::abs(found[p].tangential - wanted[p].tangential)});
     }
     EXPECT_LT(off, 1e-8 * largest);
+  }
+}
+
+struct Growth {
+  double work_before_creep = 0.0, strain_energy = 0.0;
+};
+
+/// A crack grows, and solves fail so that bodies creep to the next equilibrium: they may where a
+/// part of the plate is held by faces alone.
+Growth creep_after_growth(Communicator& ranks, const Partitioner& partitioner) {
+  CaseSpec spec = sheared();
+  add_touching(spec, {{0.0, 1.53}, {1.2, 1.53}}, 0.9);
+  Model model(spec, ranks, partitioner);
+  model.build_stiffness();
+  const auto solver = make_solver(model);
+  find_equilibrium(model, *solver, 0.4);
+  model.accept_contact();
+  CrackRegistry registry = model.registry();
+  const Crack& crack = registry.cracks()[4];
+  registry.advance(4, 0, crack.end_point(0) + 1.2 * h * crack.end_tangent(0), TipState::active, -1,
+                   1, 0);
+  model.lay_cracks(registry);
+  const Equilibrium crept = find_equilibrium(model, Fails(*make_solver(model), 1, 4), 0.4);
+  Growth found{0.0, crept.strain_energy};
+  if (crept.before_creep)
+    found.work_before_creep = model.stiffness().dot(crept.external, crept.before_creep->state);
+  return found;
+}
+
+/// Also at rank borders, faces hold on to each other where they are.
+TEST(ContactParallel, CreepsAfterGrowthFromTheSamePlace) {
+  SerialCommunicator serial;
+  const Growth one = creep_after_growth(serial, all_in_one());
+  ASSERT_NE(one.work_before_creep, 0.0) << "nothing has crept";
+  for (const Partitioner& partitioner : {strips(), scattered()}) {
+    const Growth many = creep_after_growth(world(), partitioner);
+    EXPECT_NEAR(many.work_before_creep, one.work_before_creep,
+                1e-6 * std::abs(one.work_before_creep));
+    EXPECT_NEAR(many.strain_energy, one.strain_energy, 1e-5 * one.strain_energy);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/simulation/energy_ledger.hpp"
 #include "core/simulation/equilibrium.hpp"
 #include "core/simulation/simulation.hpp"
+#include "tests/failing_solver.hpp"
 #include "tests/plates.hpp"
 
 #include <gtest/gtest.h>
@@ -125,29 +126,6 @@ TEST(LooseBodies, ComeToRestWithoutCreeping) {
   std::cout << found.contact_iterations << " solves\n";
   EXPECT_LT(found.contact_iterations, 50);
 }
-
-/// Solves as another solver does, but for some in a row that come nowhere near.
-class Fails final : public EquilibriumSolver {
- public:
-  /// at: the first that does, from 1; count: how many.
-  Fails(const EquilibriumSolver& other, int at, int count)
-      : other_(other), first_(at), last_(at + count - 1) {}
-  SolverReport solve(const CellSystem& system, std::span<const double> forces, std::span<double> u,
-                     double scale, const Accuracy& accuracy) const override {
-    SolverReport report = other_.solve(system, forces, u, scale, accuracy);
-    ++done_;
-    if (done_ < first_ || done_ > last_) return report;
-    for (double& value : u) value *= 1e6;
-    report.converged = false;
-    report.residual = 1.0;
-    return report;
-  }
-
- private:
-  const EquilibriumSolver& other_;
-  int first_, last_;
-  mutable int done_ = 0;
-};
 
 /// Where a loose body has run so far that no solve is exact, faces begin again from where they
 /// were.
