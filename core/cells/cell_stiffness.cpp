@@ -2,10 +2,8 @@
 #include "core/cells/cell_stiffness.hpp"
 
 #include "core/base/marked.hpp"
+#include "core/cells/idle_functions.hpp"
 #include "core/cells/kept_rows.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <map>
@@ -95,7 +93,7 @@ void CellStiffness::add_all_springs(const LocalMesh& mesh, const CellUnknowns& u
                                     const std::vector<double>& springs) {
   if (!springs.empty()) without_springs_ = rows_.value;
   add_faces(mesh, elements);
-  hold_idle_functions(mesh, unknowns);
+  hold_idle_functions(mesh, unknowns, rows_);
   if (!springs.empty()) add_springs(springs);
 }
 
@@ -147,65 +145,6 @@ void CellStiffness::add_faces(const LocalMesh& mesh, ElementStiffness& elements)
       }
     }
   }
-}
-
-void CellStiffness::hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns) {
-  constexpr std::size_t one_element = 4;
-  struct Zone {
-    std::size_t cells = 0;
-    std::vector<LocalId> own;
-  };
-  std::map<int, Zone> zones;
-  for (const LocalId n : unknowns.special_nodes()) {
-    std::vector<LocalId> block;
-    for (const TipUnknowns& tip : unknowns.tips(n)) {
-      Zone& zone = zones[tip.zone];
-      ++zone.cells;
-      if (!mesh.owns(n)) continue;
-      for (LocalId k = 0; k < tip.count; ++k) block.push_back(tip.first + k);
-      if (zone.cells <= one_element)
-        zone.own.insert(zone.own.end(), block.end() - tip.count, block.end());
-    }
-    if (!block.empty()) hold_idle_functions(block);
-  }
-  for (const auto& [number, zone] : zones) {
-    if (zone.cells <= one_element && !zone.own.empty()) hold_idle_functions(zone.own);
-  }
-}
-
-void CellStiffness::hold_idle_functions(std::vector<LocalId> block) {
-  std::sort(block.begin(), block.end());
-  constexpr double idle = 1e-12, well_apart = 1e-9;
-  const auto size = Eigen::Index(block.size());
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
-  const auto for_entries = [&](auto&& visit) {
-    for (Eigen::Index a = 0; a < size; ++a) {
-      const auto row = std::size_t(rows_.find(block[std::size_t(a)]));
-      const auto first = rows_.column.begin() + std::ptrdiff_t(rows_.start[row]);
-      const auto end = rows_.column.begin() + std::ptrdiff_t(rows_.start[row + 1]);
-      auto at = std::lower_bound(first, end, block.front());
-      for (Eigen::Index b = 0; b < size; ++b) {
-        while (at != end && *at < block[std::size_t(b)]) ++at;
-        if (at == end) break;
-        if (*at == block[std::size_t(b)])
-          visit(a, b, rows_.value[std::size_t(at - rows_.column.begin())]);
-      }
-    }
-  };
-  for_entries([&](Eigen::Index a, Eigen::Index b, double value) { own(a, b) = value; });
-  // most blocks are far from that, which their factor tells at less cost
-  const Eigen::LLT<Eigen::MatrixXd> factor(own);
-  const auto pivots = factor.matrixLLT().diagonal().array().square();
-  if (factor.info() == Eigen::Success && (pivots > well_apart * own.diagonal().maxCoeff()).all())
-    return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(own);
-  const double largest = pairs.eigenvalues()[size - 1];
-  Eigen::MatrixXd hold = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index k = 0; k < size && pairs.eigenvalues()[k] < idle * largest; ++k) {
-    hold += largest * pairs.eigenvectors().col(k) * pairs.eigenvectors().col(k).transpose();
-  }
-  if (hold.isZero(0.0)) return;
-  for_entries([&](Eigen::Index a, Eigen::Index b, double& value) { value += hold(a, b); });
 }
 
 void CellStiffness::add_springs(const std::vector<double>& springs) {

@@ -98,10 +98,6 @@ class CellStiffness final : public CellSystem {
   void add_all_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
                        ElementStiffness& elements, const std::vector<double>& springs);
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
-  /// Combinations of near-tip functions that strain nothing, as where these act on a small corner
-  /// only, are held at 0: of one cell, and of all cells of a zone of one element.
-  void hold_idle_functions(const LocalMesh& mesh, const CellUnknowns& unknowns);
-  void hold_idle_functions(std::vector<LocalId> block);
   void add_springs(const std::vector<double>& springs);
   void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,
                     const std::vector<char>& held, const std::vector<LocalId>& with_rows);
