@@ -45,4 +45,11 @@ void DenseFactor::solve(Eigen::VectorXd& values) const {
   lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(values);
 }
 
+void DenseFactor::solve_rows(Eigen::MatrixXd& rows) const {
+  constexpr double one = 1.0;
+  const int size = int(rows.cols()), count = int(rows.rows());
+  if (size == 0 || count == 0) return;
+  dtrsm_("R", "L", "T", "N", &count, &size, &one, lower_.data(), &size, rows.data(), &count);
+}
+
 }  // namespace cdca

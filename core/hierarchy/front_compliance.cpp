@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// How a body with a factor made of fronts gives way along some directions.
+#include "core/base/dense_product.hpp"
 #include "core/hierarchy/front_factor.hpp"
 
 #include <algorithm>
@@ -58,10 +59,10 @@ class FrontFactor::Compliance {
     auto own = all.topRows(front.count);
     l.topRows(front.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
     passed_[f].rows = all.bottomRows(left);
-    passed_[f].rows.noalias() -= l.bottomRows(left) * own;
+    add_product(-1.0, l.bottomRows(left), own, Transposed::neither, passed_[f].rows);
     const Eigen::MatrixXd weighted = l.diagonal().cwiseInverse().asDiagonal() * own;
-    Eigen::MatrixXd part(own.cols(), own.cols());
-    part.triangularView<Eigen::Lower>() = own.transpose() * weighted;
+    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(own.cols(), own.cols());
+    add_lower_product(1.0, own, weighted, Transposed::first, part);
     for (Eigen::Index c = 0; c < part.cols(); ++c) {
       double* column = &sum_(0, met[std::size_t(c)]);
       for (Eigen::Index r = c; r < part.rows(); ++r) column[met[std::size_t(r)]] += part(r, c);

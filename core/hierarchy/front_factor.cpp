@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/hierarchy/front_factor.hpp"
 
+#include "core/base/dense_product.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -176,8 +178,8 @@ bool FrontFactor::eliminate(const Front& front) {
     if (first > 0) {
       const Eigen::MatrixXd weighted =
           l.block(first, 0, width, first) * l.diagonal().head(first).asDiagonal();
-      l.block(first, first, rows - first, width).noalias() -=
-          l.block(first, 0, rows - first, first) * weighted.transpose();
+      add_product(-1.0, l.block(first, 0, rows - first, first), weighted, Transposed::second,
+                  l.block(first, first, rows - first, width));
     }
     for (Eigen::Index j = first; j < first + width; ++j) {
       const Eigen::Index done = j - first;
@@ -193,7 +195,7 @@ bool FrontFactor::eliminate(const Front& front) {
   if (left == 0) return true;
   const auto below = l.bottomRows(left);
   const Eigen::MatrixXd weighted = below * l.diagonal().asDiagonal();
-  rest_of(front).triangularView<Eigen::Lower>() -= below * weighted.transpose();
+  add_lower_product(-1.0, below, weighted, Transposed::second, rest_of(front));
   return true;
 }
 

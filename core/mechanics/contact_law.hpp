@@ -45,6 +45,11 @@ struct ContactAnswer {
   double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
 };
 
+/// What the faces of a patch do to each other, Pa; as in ContactAnswer.
+struct FaceTraction {
+  double normal = 0.0, tangential = 0.0;
+};
+
 /// What an answer keeps to that depends on the normal gap (m), Pa: of friction mu |p_N| + c_c; of
 /// open cohesive faces the opening where their secant is taken, times k_N.
 double limit_at(const ContactSpec& spec, double gap);

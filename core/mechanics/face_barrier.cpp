@@ -97,13 +97,14 @@ FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double
       return Law{1 + face.body * spring, 1 / spring + face.body};
     };
     face.across = law(spec.normal_stiffness);
-    face.rubs = spec.law == ContactLaw::coulomb && spec.tangential_stiffness > 0.0 &&
-                (spec.friction > 0.0 || spec.cohesion > 0.0);
+    face.sticks = spec.law == ContactLaw::coulomb && spec.tangential_stiffness > 0.0 &&
+                  (spec.friction > 0.0 || spec.cohesion > 0.0);
+    face.rubs = face.sticks;
     if (limits == Limits::stay) {
       face.given = patch.limit;
-      face.rubs = face.rubs && patch.limit > 0.0;
+      face.rubs = face.sticks && patch.limit > 0.0;
     }
-    if (face.rubs) face.along = law(spec.tangential_stiffness);
+    if (face.sticks) face.along = law(spec.tangential_stiffness);
     largest = std::max(largest, -patch.now.normal);
     widest = std::max(widest, std::abs(gaps[k].normal * face.across.scale));
     faces_.push_back(face);
@@ -208,7 +209,7 @@ std::vector<ContactAnswer> FaceBarrier::closed() const {
     ContactAnswer& a = answers[face.patch] = {};
     a.state = ContactState::stick;
     a.normal_spring = face.spec.normal_stiffness;
-    if (face.rubs) a.tangential_spring = face.spec.tangential_stiffness;
+    if (face.sticks) a.tangential_spring = face.spec.tangential_stiffness;
   }
   return answers;
 }
@@ -219,10 +220,17 @@ std::vector<ContactAnswer> FaceBarrier::held_at(const std::vector<ContactGap>& g
     ContactAnswer& a = answers[face.patch];
     const ContactGap& gap = gaps[face.patch];
     a.normal_zero = gap.normal * face.across.scale + face.across.compliance * face.touch.second;
-    if (face.rubs)
+    if (face.sticks)
       a.tangential_zero = gap.tangential * face.along.scale - face.along.compliance * face.shear;
   }
   return answers;
+}
+
+void FaceBarrier::take(const std::vector<FaceTraction>& tractions) {
+  for (Face& face : faces_) {
+    face.touch.second = -tractions[face.patch].normal;
+    face.shear = tractions[face.patch].tangential;
+  }
 }
 
 void FaceBarrier::follow(const std::vector<ContactGap>& gaps) {

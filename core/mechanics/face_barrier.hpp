@@ -44,6 +44,9 @@ class FaceBarrier {
   /// What all faces would answer if they were closed and stuck: no spring of a step is stiffer.
   std::vector<ContactAnswer> closed() const;
 
+  /// The tractions of others' steps count as its own.
+  void take(const std::vector<FaceTraction>& tractions);
+
   /// Answers with the springs of closed faces which exert at such gaps what the steps have come to.
   std::vector<ContactAnswer> held_at(const std::vector<ContactGap>& gaps) const;
 
@@ -74,8 +77,9 @@ class FaceBarrier {
   struct Face {
     std::size_t patch = 0;
     ContactSpec spec;
-    bool rubs = false;
-    double body = 0.0;  ///< compliance, m/Pa
+    bool sticks = false;  ///< when closed: has a spring along
+    bool rubs = false;    ///< the same, and its limit is not 0
+    double body = 0.0;    ///< compliance, m/Pa
     Law across, along;
     Pair touch;                ///< opening and pressure
     Pair forwards, backwards;  ///< slips, and what is left to the limit

@@ -19,14 +19,32 @@ struct DragStep {
   bool limits_agree = false;
 };
 
-DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule) {
+/// limits_go_along: those of friction follow the pressures, if this leads to a balance.
+DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule,
+              bool limits_go_along) {
   try {
     FaceTurns turns(model, solves, given, rule);
     const FaceTurns::End end = turns.turn();
     FaceBalance::Found balance{.found = end == FaceTurns::End::balanced};
     if (end == FaceTurns::End::jammed) {
-      balance =
-          FaceBalance(model, solves, given, {.enough = rule.enough, .drag = rule.drag}).find();
+      FaceBalance::Rule all{.enough = rule.enough, .drag = rule.drag, .limits_stay = true};
+      if (limits_go_along) {
+        FaceBalance::Rule at_once = all;
+        at_once.limits_stay = false;
+        at_once.turns_alone = true;
+        const Model::ContactMemory memory = model.contact_memory();
+        const std::vector<double> state = model.state();
+        balance = FaceBalance(model, solves, given, at_once).find();
+        if (!balance.found) {
+          model.remember(memory);
+          model.state() = state;
+        }
+      }
+      if (!balance.found) {
+        const int steps = balance.steps;
+        balance = FaceBalance(model, solves, given, all).find();
+        balance.steps += steps;
+      }
       turns.take(balance.unbalanced);
     }
     return {balance.found,      turns.count(),  balance.steps,
@@ -36,12 +54,16 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
   }
 }
 
+/// Limits of friction do not go farther at once, as a part of the largest traction: what rubs on
+/// the way is counted.
+constexpr double most_off = 0.01;
+
 /// Bodies that drag no longer holds up still slide on for as long as limits of friction are not
 /// what pressures ask for. Where they come no nearer to that from step to step, they go farther at
-/// once, but not by more than a hundredth of the largest traction: what rubs on the way is counted.
+/// once.
 /// off: what they are off by now, and were in the step before.
 double next_ahead(double ahead, double off, double off_before) {
-  constexpr double nearer = 0.7, farther = 1.5, most = 32, most_off = 0.01;
+  constexpr double nearer = 0.7, farther = 1.5, most = 32;
   const double change = off / off_before;
   if (change > farther) return 1.0;
   const double next = change > nearer ? 2 * ahead : ahead;
@@ -52,7 +74,7 @@ double next_ahead(double ahead, double off, double off_before) {
 
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough,
                        int most) {
-  constexpr int most_turns = 50;
+  constexpr int most_turns = 50, most_steps = 150;
   constexpr double at_first = 1e-2, firmest = 1e4;
   constexpr double less = 0.4, more = 5;        // drag after steps that succeed, and that do not
   constexpr double roughly = 1e-5, part = 0.1;  // of forces, on the way
@@ -62,12 +84,14 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
   Crept crept;
   double drag = at_first, close = roughly;
   double ahead = 1.0, off_before = 1.0;
+  bool limits_go_along = false;
   int in_a_row = 0;
   model.hold_all_bodies(true);
-  while (crept.turns < most && drag < firmest) {
+  for (int k = 0; k < most_steps && crept.turns < most && drag < firmest; ++k) {
     const Model::ContactMemory memory = model.contact_memory();
     const std::vector<double> state = model.state();
-    const DragStep now = step(model, solves, given, {close, most_turns, drag, ahead});
+    const DragStep now =
+        step(model, solves, given, {close, most_turns, drag, ahead}, limits_go_along);
     crept.turns += now.turns;
     crept.steps += now.steps;
     crept.unbalanced = now.limits_off;
@@ -83,6 +107,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
     if (crept.found) break;
     ahead = rests ? next_ahead(ahead, now.limits_off, off_before) : 1.0;
     off_before = now.limits_off;
+    limits_go_along = rests && model.condenses() && now.limits_off <= most_off;
     close = rests ? enough : std::clamp(part * now.pulled, enough, roughly);
     model.let_slip();
     const int power = std::clamp(++in_a_row - 1, 1, 4);

@@ -83,11 +83,20 @@ double CriticalFactor::lower(const Trial& now) const {
 
 double CriticalFactor::between(const Trial& now) {
   const Trial &a = *short_of_, &b = *beyond_;
-  // secants settle smooth stretches; where one has not got nearer, there may be a jump
-  constexpr double nearer = 0.25;
+  // secants settle smooth stretches; where they have not got nearer, there may be a jump
+  constexpr double nearer = 0.25, close = 0.01;
+  constexpr int seldom = 4, in_vain = 3;
   const bool got_nearer = std::abs(now.index - 1.0) < nearer * std::abs(before_.index - 1.0);
-  halved_ = !halved_ && !got_nearer;
-  const double share = halved_ ? 0.5 : (1.0 - a.index) / (b.index - a.index);
+  const bool other_side = (now.index < 1.0) != (before_.index < 1.0);
+  if (got_nearer) vain_secants_ = 0;
+  if (!got_nearer && halvings_ == 0) ++vain_secants_;
+  halvings_ = got_nearer || halvings_ >= (vain_secants_ > 1 ? seldom : 1) ? 0 : halvings_ + 1;
+  if (other_side) end_holds_ = end_holds_ && on_one_side_ < in_vain;
+  on_one_side_ = other_side ? 0 : on_one_side_ + 1;
+  double share = halvings_ > 0 ? 0.5 : (1.0 - a.index) / (b.index - a.index);
+  // it is often just behind the end that stays, where faces have come to by another way
+  if (halvings_ > 0 && end_holds_ && on_one_side_ >= in_vain)
+    share = now.index < 1.0 ? 1.0 - close : close;
   return a.factor + std::clamp(share, 1e-3, 1.0 - 1e-3) * (b.factor - a.factor);
 }
 

@@ -62,7 +62,10 @@ class CriticalFactor {
   Trial first_, before_;  ///< no load, no index, to begin with
   std::optional<Trial> short_of_, beyond_;
   int tried_ = 0;
-  bool halved_ = true;  ///< no secant since two trials lay on both sides
+  int halvings_ = 1;       ///< in a row; 0: the last trial was a secant, as the first is to be
+  int vain_secants_ = 0;   ///< in a row
+  int on_one_side_ = 0;    ///< trials in a row that lay there
+  bool end_holds_ = true;  ///< that end has not been found to be far from a jump
   bool last_trial_ = false;
   bool ended_ = false;
   bool grows_ = false;

@@ -32,7 +32,7 @@ FaceBalance::FaceBalance(Model& model, ContactSolves& solves, Forces& given, con
       faces_(model.contact(),
              model.contact_spots().compliances(model.contact(), model.communicator()),
              solves.gaps(), model.grid().smallest_side() / model.spec().material.young,
-             rule.drag > 0.0 ? FaceBarrier::Limits::stay : FaceBarrier::Limits::follow_pressures),
+             rule.limits_stay ? FaceBarrier::Limits::stay : FaceBarrier::Limits::follow_pressures),
       nearest_(model.state()) {}
 
 FaceBalance::Found FaceBalance::find() {
@@ -46,6 +46,7 @@ FaceBalance::Found FaceBalance::find() {
       left_ = 1.0;
     }
   }
+  if (rule_.turns_alone) gave_up_ = true;
   while (!now_.found && !gave_up_ && now_.steps < most_steps) step_whole();
   if (!drags()) given_.anchor.clear();
   if (!now_.found) {
@@ -54,8 +55,9 @@ FaceBalance::Found FaceBalance::find() {
   }
   ContactPatches& contact = model_.contact();
   const auto here = solves_.gaps();
-  contact.respond(here, drags() ? contact.limits() : contact.limits_at(here));
-  model_.renew_stiffness(weak_);
+  contact.respond(here, rule_.limits_stay ? contact.limits() : contact.limits_at(here));
+  // with drag, the next step has springs of its own
+  if (!drags()) model_.renew_stiffness(weak_);
   solves_.set_forces_of_faces();
   return now_;
 }
@@ -74,7 +76,8 @@ void FaceBalance::go_condensed() {
   solves_.once({});
   scale_ = solves_.slowest().scale;
   const auto closed_gaps = solves_.gaps();
-  const Model::FacesOfBody& condensed = model_.condensed(closed);
+  Model::FacesOfBody& condensed = model_.condensed(closed);
+  if (turn_condensed(condensed, closed_gaps, at) || rule_.turns_alone) return;
   BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps, model_.communicator());
   struct Place {
     FaceBarrier faces;
@@ -117,7 +120,34 @@ void FaceBalance::go_condensed() {
   solves_.answer(faces_.held_at(nearest.gaps));
   solves_.once({});
   left_ = std::max(nearest.left, solves_.slowest().residual);
-  judge();
+  judge(faces_);
+}
+
+bool FaceBalance::turn_condensed(Model::FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
+                                 std::vector<ContactGap> from) {
+  constexpr int most = 4;
+  for (int k = 0; k < most; ++k) {
+    CondensedTurns turns(model_.contact(),
+                         {condensed.places, condensed.compliance, closed_gaps, condensed.reference},
+                         {rule_.enough, rule_.limits_stay});
+    const auto balance = turns.find(from, model_.communicator());
+    ++now_.steps;
+    if (!balance.found) return false;
+    FaceBarrier faces = faces_;
+    faces.take(balance.tractions);
+    solves_.answer(faces.held_at(balance.gaps));
+    solves_.once({});
+    left_ = solves_.slowest().residual;
+    judge(faces);
+    if (now_.found || anchored_anew_) return true;
+    // the whole body tells its gaps better than the condensed one where bodies are nearly loose
+    from = solves_.gaps();
+    for (std::size_t p = 0; p < from.size(); ++p) {
+      closed_gaps[p].normal += from[p].normal - balance.gaps[p].normal;
+      closed_gaps[p].tangential += from[p].tangential - balance.gaps[p].tangential;
+    }
+  }
+  return false;
 }
 
 void FaceBalance::step_whole() {
@@ -142,7 +172,7 @@ void FaceBalance::step_whole() {
   for (std::size_t k = 0; k < state.size(); ++k)
     state[k] = before[k] + share * (state[k] - before[k]);
   left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_ + share * solves_.slowest().residual;
-  judge();
+  judge(faces_);
   gave_up_ = !is_of_use_to_go_on(least_);
 }
 
@@ -151,14 +181,14 @@ bool FaceBalance::is_of_use_to_go_on(double least) {
   return ++restarts_ <= rule_.most_restarts && least > rule_.near;
 }
 
-void FaceBalance::judge() {
+void FaceBalance::judge(const FaceBarrier& faces) {
   const std::vector<double>& state = model_.state();
-  now_.unbalanced = faces_.unbalanced(solves_.gaps());
+  now_.unbalanced = faces.unbalanced(solves_.gaps());
   if (off() < least_) {
     least_ = off();
     nearest_ = state;
   }
-  const double told_apart = std::max(rule_.enough, solves_.rounding(faces_.largest_pressure()));
+  const double told_apart = std::max(rule_.enough, solves_.rounding(faces.largest_pressure()));
   now_.found = off() <= told_apart;
   if (drags()) return;
   std::vector<double> move = state;

@@ -2,6 +2,7 @@
 /// All faces brought into balance at once.
 #pragma once
 
+#include "core/mechanics/condensed_turns.hpp"
 #include "core/mechanics/face_barrier.hpp"
 #include "core/simulation/contact_solves.hpp"
 
@@ -17,16 +18,20 @@ class FaceBalance {
   struct Rule {
     double enough = 0.0;  ///< unbalanced tractions that are left, as a part of the largest
     double near = 0.0;    ///< the same: where steps are stuck this near, they do not begin anew
-    /// As of FaceTurns: with drag, given.anchor and limits of friction stay what they are.
+    /// As of FaceTurns: with drag, given.anchor stays what it is.
     double drag = 0.0;
-    int most_restarts = 100;  ///< of steps that are stuck
+    bool limits_stay = false;  ///< of friction; otherwise they follow the pressures
+    int most_restarts = 100;   ///< of steps that are stuck
+    bool turns_alone = false;  ///< of faces on the condensed body, and no other steps
   };
   FaceBalance(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
 
   struct Found {
     bool found = false;
     double unbalanced = 1.0;  ///< tractions, as a part of the largest
-    int steps = 0;            ///< each with springs of its own
+    /// Each with springs of its own; all turns of faces on the condensed body from one place are
+    /// one.
+    int steps = 0;
   };
   /// Leaves springs, states and limits of that balance, or of where faces were nearest to it.
   /// Collective.
@@ -35,10 +40,13 @@ class FaceBalance {
  private:
   /// As far as it goes with the body condensed to its faces, from where faces are balanced or not.
   void go_condensed();
+  /// Turns of faces on it from such gaps; whether they lead to a balance of the whole body.
+  bool turn_condensed(Model::FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
+                      std::vector<ContactGap> from);
   /// One step with the whole body.
   void step_whole();
   /// Whether the state at hand is the one that is looked for.
-  void judge();
+  void judge(const FaceBarrier& faces);
   double off() const { return std::max(now_.unbalanced, left_); }
   /// After a step that has not found it. least: unbalanced so far.
   bool is_of_use_to_go_on(double least);

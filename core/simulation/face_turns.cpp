@@ -28,10 +28,12 @@ double balance_after(const SolverReport& solve, double wanted, double enough, do
   return solve.rounded && allowed <= ContactSolves::worst_balance ? allowed : -1.0;
 }
 
-/// Where all faces at once take less than a few turns, they are not waited for.
+/// Where all faces at once take less than a few turns, they are not waited for. With drag these are
+/// found with one factor of the body.
 FaceTurns::Patience patience_of(const Model& model, bool drags) {
   constexpr int forever = std::numeric_limits<int>::max();
-  if (model.condenses() && FaceBarrier::suits(model.contact())) return {1, 6};
+  if (model.condenses() && FaceBarrier::suits(model.contact()))
+    return drags ? FaceTurns::Patience{0, 0} : FaceTurns::Patience{1, 6};
   return drags ? FaceTurns::Patience{forever, forever} : FaceTurns::Patience{4, follow_at_once};
 }
 
@@ -58,10 +60,11 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
       limits[p] = std::max(0.0, before[p] + rule.ahead * (limits[p] - before[p]));
   }
   const bool turned = model.contact().respond(here, limits).springs;
-  if (turned || drags()) model.renew_stiffness(weak_);
+  if ((turned || drags()) && patience_.turns > 0) model.renew_stiffness(weak_);
 }
 
 FaceTurns::End FaceTurns::turn() {
+  if (patience_.turns == 0) return End::jammed;
   while (count_ < rule_.most) {
     if (once()) return End::balanced;
     if (cut_short_ >= patience_.short_moves || count_ == patience_.turns) return End::jammed;

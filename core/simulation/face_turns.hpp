@@ -30,7 +30,8 @@ class FaceTurns {
   /// Goes on until faces are in balance, or jam: their moves become short again and again, or there
   /// have been many.
   End turn();
-  /// When faces have jammed: after so many short moves, or turns from the start.
+  /// When faces have jammed: after so many short moves, or turns from the start; 0: they are left
+  /// to FaceBalance.
   struct Patience {
     int short_moves = 0, turns = 0;
   };

@@ -11,6 +11,7 @@
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/mechanics/material.hpp"
+#include "core/mechanics/reference_faces.hpp"
 #include "core/mechanics/supports.hpp"
 #include "core/simulation/case_spec.hpp"
 
@@ -118,12 +119,13 @@ class Model {
     Eigen::MatrixXd compliance;
     double weak_share = 0.0;
     bool all_held = false;
+    ReferenceFaces reference;  ///< empty at first
   };
   /// Whether it can be: only where one factor moves all cells; elsewhere it would take too much.
   bool condenses() const { return hierarchy_.count() == 1; }
-  /// closed: answers with springs of closed faces, which are in the stiffness. Kept until these
-  /// springs, or others in the stiffness, are no longer the same. Collective.
-  const FacesOfBody& condensed(const std::vector<ContactAnswer>& closed);
+  /// closed: answers with springs of closed faces, which are in the stiffness. Some are kept, for
+  /// other springs that were in the stiffness, until cracks grow. Collective.
+  FacesOfBody& condensed(const std::vector<ContactAnswer>& closed);
   BasisContext basis() const { return {mesh_, cuts_, zones_, unknowns_}; }
   Rectangle body() const { return {grid_.origin(), grid_.origin() + grid_.size()}; }
   /// Cracks that come nearer than this touch, m.
@@ -194,8 +196,8 @@ class Model {
   bool all_held_ = false;            ///< by weak springs
   double rubbed_ = 0.0;  ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
-  std::optional<FacesOfBody> condensed_;
-  double weak_share_ = 0.0;  ///< in the stiffness
+  std::vector<std::unique_ptr<FacesOfBody>> condensed_;  ///< used last first
+  double weak_share_ = 0.0;                              ///< in the stiffness
   std::vector<double> state_;
   std::vector<double> origin_;  ///< empty: state_
 };

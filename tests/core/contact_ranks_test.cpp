@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Touching faces stick, slip, open and drive wings alike on any number of ranks, with rank borders
 /// along them and across them.
+#include "core/mechanics/condensed_turns.hpp"
 #include "core/mechanics/face_barrier.hpp"
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/simulation/contact_solves.hpp"
@@ -188,6 +189,59 @@ TEST(CondensedBodyParallel, MovesItsFacesAsTheWholeBody) {
                       std::abs(found[p].tangential - wanted[p].tangential)});
     }
     EXPECT_LT(off, 1e-8 * largest);
+  }
+}
+
+/// Turns of faces on the condensed body, from far away: with limits of friction that stay, or that
+/// follow the pressures, the whole body is in balance with the tractions that they lead to.
+TEST(CondensedBodyParallel, TurnsItsFacesToABalanceOfTheWholeBody) {
+  constexpr double factor = 0.5, enough = 1e-8;
+  for (const bool limits_stay : {true, false}) {
+    Model model(sheared(), world(), scattered());
+    model.build_stiffness();
+    const auto solver = make_solver(model);
+    find_equilibrium(model, *solver, 0.1);
+    const std::vector<double> none(model.state().size(), 0.0);
+    Forces given{none, none, none};
+    add_external_forces(model.basis(), model.loads(factor), given.external);
+    ContactSolves solves(model, *solver, factor, given);
+    ContactPatches& contact = model.contact();
+    const auto share = model.contact_spots().compliances(contact, model.communicator());
+    const auto from = solves.gaps();
+    using Limits = FaceBarrier::Limits;
+    FaceBarrier faces(contact, share, from, 1.0,
+                      limits_stay ? Limits::stay : Limits::follow_pressures);
+    const auto limits = contact.limits();
+    const auto closed = faces.closed();
+    const auto solve = [&](const std::vector<ContactAnswer>& answers) {
+      solves.answer(answers);
+      model.renew_stiffness(ContactSolves::loosest);
+      solves.once({});
+      return solves.gaps();
+    };
+    const auto closed_gaps = solve(closed);
+    Model::FacesOfBody& body = model.condensed(closed);
+    CondensedTurns turns(contact, {body.places, body.compliance, closed_gaps, body.reference},
+                         {enough, limits_stay});
+    const auto found = turns.find(from, world());
+    ASSERT_TRUE(found.found);
+    EXPECT_GT(found.turns, 1);
+    faces.take(found.tractions);
+    const auto gaps = solve(faces.held_at(found.gaps));
+    double largest = 0.0, off = 0.0;
+    std::set<ContactState> states;
+    for (std::size_t p = 0; p < gaps.size(); ++p) {
+      const ContactSpec& law = contact.law_of(contact.patches()[p]);
+      const double limit = limits_stay ? limits[p] : limit_at(law, gaps[p].normal);
+      const ContactAnswer wanted = contact_answer(law, 0.0, gaps[p], limit);
+      const FaceTraction& is = found.tractions[p];
+      states.insert(wanted.state);
+      largest = std::max({largest, std::abs(is.normal), std::abs(is.tangential)});
+      off = std::max(
+          {off, std::abs(is.normal - wanted.normal), std::abs(is.tangential - wanted.tangential)});
+    }
+    EXPECT_EQ(states.size(), 3u) << "faces open, stick and slip";
+    EXPECT_LE(off, 10 * enough * largest) << limits_stay;
   }
 }
 

@@ -31,6 +31,18 @@ TEST(DenseFactor, Solves) {
   }
 }
 
+TEST(DenseFactor, SolvesRowsWithHalfOfItself) {
+  for (const Eigen::Index size : {1, 64, 150}) {
+    const Eigen::MatrixXd matrix = positive(size), rows = Eigen::MatrixXd::Random(7, size);
+    DenseFactor factor;
+    ASSERT_TRUE(factor.compute(matrix));
+    Eigen::MatrixXd half = rows;
+    factor.solve_rows(half);
+    const Eigen::MatrixXd wanted = rows * matrix.llt().solve(rows.transpose());
+    EXPECT_LT((half * half.transpose() - wanted).norm(), 1e-10 * wanted.norm()) << size;
+  }
+}
+
 TEST(DenseFactor, SaysWhereThereIsNone) {
   for (const Eigen::Index at : {0, 70, 149}) {
     Eigen::MatrixXd matrix = positive(150);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The condensed body with faces in states that they are known to have: others are few changes.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace cdca {
+
+/// With springs kR of the faces, C the compliance at their places (m^2/N) with springs k0 of closed
+/// faces, and w lengths, the compliance is
+///
+///     C_R = (I - C w (k0 - kR))^-1 C = C + H H^T.
+///
+/// All here is by place, on one rank.
+class ReferenceFaces {
+ public:
+  bool exists() const { return missing_.size() > 0; }
+  /// missing: w (k0 - kR), Pa, not below 0. Returns whether faces so hold the body. It is always
+  /// made from C: where a body is loose in one reference, rounding spoils others made from it.
+  bool refer(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& missing);
+  const Eigen::VectorXd& missing() const { return missing_; }
+  /// (I - C w (k0 - kR))^-1 gaps.
+  Eigen::VectorXd moved(const Eigen::MatrixXd& compliance, const Eigen::VectorXd& gaps) const;
+  /// Makes columns of C_R that are not there yet. Returns where in columns() each of them is.
+  std::vector<Eigen::Index> need(const Eigen::MatrixXd& compliance,
+                                 const std::vector<Eigen::Index>& places);
+  const Eigen::MatrixXd& columns() const { return columns_; }
+
+ private:
+  Eigen::VectorXd missing_;
+  Eigen::MatrixXd half_;          ///< H
+  std::vector<Eigen::Index> at_;  ///< by place: its column; -1: there is none
+  Eigen::MatrixXd columns_;       ///< those in use come first
+  Eigen::Index used_ = 0;
+};
+
+}  // namespace cdca
