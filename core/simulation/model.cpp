@@ -19,6 +19,13 @@ namespace {
 
 StructuredGrid grid_of(const DomainSpec& d) { return {d.origin, d.size, d.cells[0], d.cells[1]}; }
 
+HierarchyShape shape_of(const CaseSpec& spec) {
+  const bool touching = std::any_of(spec.cracks.begin(), spec.cracks.end(), [](const auto& crack) {
+    return crack.contact.law != ContactLaw::none;
+  });
+  return {{}, touching ? spec.solver.coarsest_touching : spec.solver.coarsest_nodes};
+}
+
 }  // namespace
 
 Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner& partitioner)
@@ -26,7 +33,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_({{}, spec.solver.coarsest_nodes}) {
+      hierarchy_(shape_of(spec)) {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_,
@@ -43,7 +50,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_({{}, spec.solver.coarsest_nodes}) {
+      hierarchy_(shape_of(spec)) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
   build_cells(nullptr);

@@ -31,7 +31,9 @@ bool is_sound(const CaseSpec& spec) {
 /// Which way the top moves, and what faces do that touch.
 enum class Loading { tension, tension_with_contact, compression };
 
-using Network = std::tuple<unsigned, Loading>;  ///< seed
+enum class Scales { one, three };
+
+using Network = std::tuple<unsigned, Loading, Scales>;  ///< seed
 
 /// Stiff faces; every third seed without friction.
 ContactSpec contact_of_seed(unsigned seed, double h) {
@@ -62,8 +64,8 @@ CaseSpec random_network(unsigned seed, int cells, int count, Loading loading) {
   return spec;
 }
 
-/// Seeds differ in grid, number of cracks, step length, kind of loading and number of scales.
-CaseSpec network_of_seed(unsigned seed, Loading loading) {
+/// Seeds differ in grid, number of cracks, step length and kind of loading.
+CaseSpec network_of_seed(unsigned seed, Loading loading, Scales scales = Scales::one) {
   std::mt19937 engine(seed);
   // small grids where faces touch, since every cycle takes many solves
   const bool touching = loading != Loading::tension;
@@ -75,7 +77,7 @@ CaseSpec network_of_seed(unsigned seed, Loading loading) {
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
-  if ((seed % 5 == 0) == touching) spec.solver.coarsest_nodes = 300;  // three scales, otherwise one
+  if (scales == Scales::three) spec.solver.coarsest_nodes = spec.solver.coarsest_touching = 300;
   spec.load_factors.clear();
   for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;
@@ -92,8 +94,8 @@ void expect_finite(const Summary& s) {
 }
 
 void expect_to_end_well(const Network& network) {
-  const auto [seed, loading] = network;
-  const CaseSpec spec = network_of_seed(seed, loading);
+  const auto [seed, loading, scales] = network;
+  const CaseSpec spec = network_of_seed(seed, loading, scales);
   Summary s;
   ASSERT_NO_THROW(s = run_simulation(spec, "test", world(), world_partitioner(), {}));
   std::cout << spec.cracks.size() << " cracks, " << spec.domain.cells[0] << " x "
@@ -157,8 +159,8 @@ TEST(JammedBlocks, SettleInFewTurns) {
 /// rounding: conjugate gradients found a direction without stiffness, and gave up.
 TEST(SlowSmallTipZones, HoldWhatStrainsNothing) {
   for (const auto& [seed, loading] :
-       {Network{55, Loading::tension_with_contact}, Network{35, Loading::compression}}) {
-    Model model(network_of_seed(seed, loading), world(), world_partitioner());
+       {std::pair{55U, Loading::tension_with_contact}, std::pair{35U, Loading::compression}}) {
+    Model model(network_of_seed(seed, loading, Scales::three), world(), world_partitioner());
     model.build_stiffness();
     EXPECT_NO_THROW(find_equilibrium(model, *make_solver(model), 0.3)) << "seed " << seed;
   }
@@ -166,24 +168,22 @@ TEST(SlowSmallTipZones, HoldWhatStrainsNothing) {
 
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
 TEST_P(NetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
+using ::testing::Combine;
+using ::testing::Range;
+using ::testing::Values;
+const auto one_scale = Values(Scales::one), three_scales = Values(Scales::three);
+const auto touching = Values(Loading::tension_with_contact, Loading::compression);
 INSTANTIATE_TEST_SUITE_P(Seeds, NetworkGrowth,
-                         ::testing::Combine(::testing::Values(1U),
-                                            ::testing::Values(Loading::tension)));
-
-INSTANTIATE_TEST_SUITE_P(Touching, NetworkGrowth,
-                         ::testing::Combine(::testing::Values(1U),
-                                            ::testing::Values(Loading::tension_with_contact,
-                                                              Loading::compression)));
+                         Combine(Values(1U), Values(Loading::tension), three_scales));
+INSTANTIATE_TEST_SUITE_P(Touching, NetworkGrowth, Combine(Values(1U), touching, one_scale));
 
 class SlowNetworkGrowth : public NetworkGrowth {};
 TEST_P(SlowNetworkGrowth, EndsWell) { expect_to_end_well(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Tension, SlowNetworkGrowth,
-                         ::testing::Combine(::testing::Range(2U, 43U),
-                                            ::testing::Values(Loading::tension)));
-INSTANTIATE_TEST_SUITE_P(Contact, SlowNetworkGrowth,
-                         ::testing::Combine(::testing::Range(2U, 101U),
-                                            ::testing::Values(Loading::tension_with_contact,
-                                                              Loading::compression)));
+                         Combine(Range(2U, 43U), Values(Loading::tension), three_scales));
+INSTANTIATE_TEST_SUITE_P(Contact, SlowNetworkGrowth, Combine(Range(2U, 101U), touching, one_scale));
+INSTANTIATE_TEST_SUITE_P(ContactOnScales, SlowNetworkGrowth,
+                         Combine(Range(5U, 101U, 5U), touching, three_scales));
 
 /// However quietly the faces come to rest: what is taken for equilibrium is one of forces, too.
 TEST(ContactOfNetworks, WhatIsTakenIsExact) {
