@@ -3,6 +3,8 @@
 
 #include "core/base/errors.hpp"
 
+#include <utility>
+
 namespace cdca {
 
 namespace {
@@ -61,14 +63,17 @@ CoarsestSolve::CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor)
   require(factor.compute(total_, of_all(communicator, std::move(entries))));
 }
 
-void CoarsestSolve::turn_springs() {
+void CoarsestSolve::factor_turned() const {
+  if (!turned_) return;
   std::vector<double> values(held_, 1.0);
   values.reserve(held_ + entries_.size());
   for (const std::size_t k : entries_) values.push_back(cells_.rows().value[k]);
   require(factor_.compute_again(of_all(cells_.communicator(), std::move(values))));
+  turned_ = false;
 }
 
 void CoarsestSolve::solve(std::span<const double> forces, std::span<double> moves) const {
+  factor_turned();
   const auto own = Eigen::Index(cells_.owned());
   Eigen::VectorXd all = Eigen::VectorXd::Zero(Eigen::Index(total_));
   all.segment(Eigen::Index(first_), own) = Eigen::Map<const Eigen::VectorXd>(forces.data(), own);
@@ -80,6 +85,7 @@ void CoarsestSolve::solve(std::span<const double> forces, std::span<double> move
 
 Eigen::MatrixXd CoarsestSolve::compliance(std::size_t measures,
                                           const std::vector<Effect>& effects) const {
+  factor_turned();
   StiffnessEntries entries;
   for (const Effect& e : effects) {
     const double number = number_[std::size_t(e.unknown)];

@@ -16,8 +16,8 @@ class CoarsestSolve {
   /// cells must have rows for all of its cells. factor: from the last time, brought up to date;
   /// borrowed. Collective.
   CoarsestSolve(const CellStiffness& cells, CoarsestFactor& factor);
-  /// The cells' springs have turned; all else is as it was. Collective.
-  void turn_springs();
+  /// The cells' springs have turned; all else is as it was. The next solve makes the factor anew.
+  void turn_springs() { turned_ = true; }
   /// moves = K^-1 forces on own cells; 0 on held unknowns. Collective.
   void solve(std::span<const double> forces, std::span<double> moves) const;
   /// How far forces on each of some measures move all of them; the effects of all ranks on them
@@ -25,11 +25,14 @@ class CoarsestSolve {
   Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const;
 
  private:
+  void factor_turned() const;
+
   const CellStiffness& cells_;
   std::vector<double> number_;  ///< of unknowns over all ranks; -1: held
   std::size_t first_ = 0;       ///< of own unknowns among those of all ranks
   std::size_t total_ = 0;
   CoarsestFactor& factor_;
+  mutable bool turned_ = false;       ///< springs, since the factor was made
   std::size_t held_ = 0;              ///< own entries that stand for held unknowns come first,
   std::vector<std::size_t> entries_;  ///< then these values of the rows
 };

@@ -28,12 +28,10 @@ double balance_after(const SolverReport& solve, double wanted, double enough, do
   return solve.rounded && allowed <= ContactSolves::worst_balance ? allowed : -1.0;
 }
 
-/// Where all faces at once take less than a few turns, they are not waited for. With drag these are
-/// found with one factor of the body.
+/// Where the body is condensed to its faces, these are settled on it first.
 FaceTurns::Patience patience_of(const Model& model, bool drags) {
   constexpr int forever = std::numeric_limits<int>::max();
-  if (model.condenses() && FaceBarrier::suits(model.contact()))
-    return drags ? FaceTurns::Patience{0, 0} : FaceTurns::Patience{1, 6};
+  if (model.condenses() && FaceBarrier::suits(model.contact())) return {0, 0};
   return drags ? FaceTurns::Patience{forever, forever} : FaceTurns::Patience{4, follow_at_once};
 }
 
@@ -73,6 +71,8 @@ FaceTurns::End FaceTurns::turn() {
 }
 
 void FaceTurns::begin_again() {
+  constexpr Patience a_few{1, 6};
+  if (patience_.turns == 0) patience_ = a_few;
   model_.renew_stiffness(weak_);
   unbalanced_ = nearly;
   cut_short_ = 0;

@@ -87,7 +87,7 @@ class CarriedCellsParallel : public ::testing::TestWithParam<int> {
  protected:
   static CaseSpec plate_number(int number) {
     CaseSpec spec = plates()[std::size_t(number)];
-    spec.solver.coarsest_nodes = 60;
+    spec.solver.coarsest_nodes = spec.solver.coarsest_touching = 60;
     return spec;
   }
 
@@ -132,7 +132,7 @@ class CarriedFacesParallel : public ::testing::TestWithParam<int> {
  protected:
   static CaseSpec plate_number(int number) {
     CaseSpec spec = with_faces(plates()[std::size_t(number)]);
-    spec.solver.coarsest_nodes = number == 1 ? 100000 : 60;
+    spec.solver.coarsest_nodes = spec.solver.coarsest_touching = number == 1 ? 100000 : 60;
     return spec;
   }
   /// About one face in ten opens, closes or begins to slide.
