@@ -177,7 +177,9 @@ INSTANTIATE_TEST_SUITE_P(Plates, CarriedFacesParallel, ::testing::Range(0, 5));
 
 /// Of a plate in which one face opens, cells far from it are as they were.
 TEST(CarriedFaces, MostCellsAreTheSame) {
-  const auto model = built(with_faces(plate_of(60, 120, three_cracks())));
+  CaseSpec spec = with_faces(plate_of(60, 120, three_cracks()));
+  spec.solver.coarsest_touching = 2000;
+  const auto model = built(spec);
   const std::int64_t all = model->hierarchy().factors().made();
   model->contact().patches()[3].now = ContactAnswer();
   model->renew_stiffness(1e-3);
