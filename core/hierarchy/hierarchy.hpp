@@ -44,7 +44,8 @@ class Hierarchy final : public Scales {
   /// they were. Collective.
   void build(const FinestScale& finest, const CellStiffness& cells);
 
-  /// The springs of the cells have turned. Only where one factor moves all cells. Collective.
+  /// The springs of the cells have turned. Only where one factor moves all cells; the next solve
+  /// makes it anew.
   void turn_springs();
   /// As of CoarsestSolve, and only where turn_springs() is. Collective.
   Eigen::MatrixXd compliance(std::size_t measures, const std::vector<Effect>& effects) const;

@@ -23,6 +23,8 @@ constexpr int most_together = 12;   ///< turns in which limits go along
 constexpr int most_stuck = 5;       ///< turns that lead nowhere
 /// More springs that have changed than this part of all are a new reference.
 constexpr double few = 0.12;
+/// Moves that are no longer downhill may end there: the whole body tells whether it is enough.
+constexpr double rounding = 1e-5;
 constexpr double exactly = 1e-2;  ///< of what is enough: while turns still come nearer
 
 }  // namespace
@@ -214,10 +216,11 @@ bool CondensedTurns::is_enough(double off, double before) const {
 }
 
 bool CondensedTurns::settle_at_limits() {
-  constexpr double near = 1e-4, rounding = 1e-5;
+  constexpr double near = 1e-4;
   double before = std::numeric_limits<double>::infinity();
   int stuck = 0;
   base_.resize(0);  // of other limits
+  rounded_ = false;
   while (turns_ < most_turns && stuck < most_stuck) {
     const Answers now = answers(Limits::given);
     const double off = off_from(now);
@@ -233,7 +236,8 @@ bool CondensedTurns::settle_at_limits() {
     gaps_ += share * (there - gaps_);
     tractions_ += share * (tractions - tractions_);
   }
-  return stuck == most_stuck && before <= rounding;
+  rounded_ = stuck == most_stuck && before <= rounding;
+  return rounded_;
 }
 
 bool CondensedTurns::settle_with_pressures() {
@@ -274,6 +278,7 @@ bool CondensedTurns::settle() {
     if (settle_with_pressures()) return true;
     gaps_ = gaps;
     tractions_ = tractions;
+    if (rounded_ && off_from(answers(Limits::follow)) <= rounding) return true;
     limits_ = turns.next(limits_, found);
     for (double& limit : limits_) limit = std::max(0.0, limit);
   }

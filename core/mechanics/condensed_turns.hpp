@@ -86,6 +86,7 @@ class CondensedTurns {
   Eigen::VectorXd tractions_;          ///< that the body is in balance with, Pa
   Eigen::VectorXd base_, base_given_;  ///< gaps with the reference's springs, and given tractions
   bool downhill_ = true;               ///< the last move: by more than rounding
+  bool rounded_ = false;               ///< settled as well as rounding allows
   bool refines_ = false;               ///< solves: where rounding may count
   int turns_ = 0;
 };

@@ -233,6 +233,16 @@ void FaceBarrier::take(const std::vector<FaceTraction>& tractions) {
   }
 }
 
+void FaceBarrier::add_held(const std::vector<ContactGap>& held,
+                           const std::vector<ContactGap>& gaps) {
+  for (Face& face : faces_) {
+    const ContactGap &from = held[face.patch], &to = gaps[face.patch];
+    face.touch.second -= face.spec.normal_stiffness * (to.normal - from.normal);
+    if (face.sticks)
+      face.shear += face.spec.tangential_stiffness * (to.tangential - from.tangential);
+  }
+}
+
 void FaceBarrier::follow(const std::vector<ContactGap>& gaps) {
   for (Face& face : faces_) {
     const ContactGap& gap = gaps[face.patch];

@@ -46,6 +46,9 @@ class FaceBarrier {
 
   /// The tractions of others' steps count as its own.
   void take(const std::vector<FaceTraction>& tractions);
+  /// Faces that were held at some gaps, as of held_at(), are at others: their springs have told the
+  /// difference.
+  void add_held(const std::vector<ContactGap>& held, const std::vector<ContactGap>& gaps);
 
   /// Answers with the springs of closed faces which exert at such gaps what the steps have come to.
   std::vector<ContactAnswer> held_at(const std::vector<ContactGap>& gaps) const;

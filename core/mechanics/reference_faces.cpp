@@ -4,7 +4,6 @@
 #include "core/base/dense_factor.hpp"
 #include "core/base/dense_product.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace cdca {

@@ -45,7 +45,7 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
         balance = FaceBalance(model, solves, given, all).find();
         balance.steps += steps;
       }
-      turns.take(balance.unbalanced);
+      turns.take(balance.unbalanced, balance.scale);
     }
     return {balance.found,      turns.count(),  balance.steps,
             turns.limits_off(), turns.pulled(), turns.limits_agree()};

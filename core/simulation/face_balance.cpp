@@ -2,6 +2,7 @@
 #include "core/simulation/face_balance.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/mechanics/condensed_turns.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -59,6 +60,7 @@ FaceBalance::Found FaceBalance::find() {
   // with drag, the next step has springs of its own
   if (!drags()) model_.renew_stiffness(weak_);
   solves_.set_forces_of_faces();
+  if (scale_ > 0.0) now_.scale = scale_;
   return now_;
 }
 
@@ -77,7 +79,10 @@ void FaceBalance::go_condensed() {
   scale_ = solves_.slowest().scale;
   const auto closed_gaps = solves_.gaps();
   Model::FacesOfBody& condensed = model_.condensed(closed);
+  const double left_before = left_, unbalanced_before = now_.unbalanced;
   if (turn_condensed(condensed, closed_gaps, at) || rule_.turns_alone) return;
+  left_ = left_before;
+  now_.unbalanced = unbalanced_before;
   BodyAtFaces body(condensed.places, condensed.compliance, closed_gaps, model_.communicator());
   struct Place {
     FaceBarrier faces;
@@ -120,7 +125,9 @@ void FaceBalance::go_condensed() {
   solves_.answer(faces_.held_at(nearest.gaps));
   solves_.once({});
   left_ = std::max(nearest.left, solves_.slowest().residual);
-  judge(faces_);
+  FaceBarrier held = faces_;
+  held.add_held(nearest.gaps, solves_.gaps());
+  judge(held);
 }
 
 bool FaceBalance::turn_condensed(Model::FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
@@ -138,10 +145,11 @@ bool FaceBalance::turn_condensed(Model::FacesOfBody& condensed, std::vector<Cont
     solves_.answer(faces.held_at(balance.gaps));
     solves_.once({});
     left_ = solves_.slowest().residual;
+    from = solves_.gaps();
+    faces.add_held(balance.gaps, from);
     judge(faces);
     if (now_.found || anchored_anew_) return true;
     // the whole body tells its gaps better than the condensed one where bodies are nearly loose
-    from = solves_.gaps();
     for (std::size_t p = 0; p < from.size(); ++p) {
       closed_gaps[p].normal += from[p].normal - balance.gaps[p].normal;
       closed_gaps[p].tangential += from[p].tangential - balance.gaps[p].tangential;

@@ -2,7 +2,6 @@
 /// All faces brought into balance at once.
 #pragma once
 
-#include "core/mechanics/condensed_turns.hpp"
 #include "core/mechanics/face_barrier.hpp"
 #include "core/simulation/contact_solves.hpp"
 
@@ -11,8 +10,9 @@
 
 namespace cdca {
 
-/// Goes with the steps of FaceBarrier to an equilibrium: as far as possible with the body condensed
-/// to its faces, then with all of it. Without drag, given.anchor is set on the way.
+/// Goes to an equilibrium: with the body condensed to its faces by turns of these, then with the
+/// steps of FaceBarrier, and then with those and the whole body. Without drag, given.anchor is set
+/// on the way.
 class FaceBalance {
  public:
   struct Rule {
@@ -32,6 +32,7 @@ class FaceBalance {
     /// Each with springs of its own; all turns of faces on the condensed body from one place are
     /// one.
     int steps = 0;
+    double scale = 0.0;  ///< of the loads, without what faces exert that are held; 0: not known
   };
   /// Leaves springs, states and limits of that balance, or of where faces were nearest to it.
   /// Collective.

@@ -71,18 +71,20 @@ FaceTurns::End FaceTurns::turn() {
 }
 
 void FaceTurns::begin_again() {
-  constexpr Patience a_few{1, 6};
-  if (patience_.turns == 0) patience_ = a_few;
+  constexpr int a_few = 6;
+  if (model_.condenses()) patience_ = {1, count_ + a_few};
   model_.renew_stiffness(weak_);
   unbalanced_ = nearly;
   cut_short_ = 0;
 }
 
-void FaceTurns::take(double unbalanced) {
+void FaceTurns::take(double unbalanced, double scale) {
   const auto change = model_.contact().respond(solves_.gaps(), model_.contact().limits());
   unbalanced_ = unbalanced;
   limits_off_ = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
   pulled_ = solves_.held_back(from_anchor());
+  // faces that are held exert much more than the loads
+  if (scale > 0.0) pulled_ *= solves_.slowest().scale / scale;
   balanced_to_ = std::max(rule_.enough, solves_.rounding(change.largest));
 }
 

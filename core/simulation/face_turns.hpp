@@ -38,7 +38,8 @@ class FaceTurns {
   /// Springs are those of the faces as they are; after others have moved the model.
   void begin_again();
   /// Others have moved the model to where tractions are unbalanced by this part of the largest.
-  void take(double unbalanced);
+  /// scale: of the loads; 0: that of the last solve.
+  void take(double unbalanced, double scale);
 
   int count() const { return count_; }
   void add_to_count(int steps) { count_ += steps; }
