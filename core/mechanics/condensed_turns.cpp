@@ -4,8 +4,6 @@
 #include "core/base/communicator_agree.hpp"
 #include "core/mechanics/fixed_point_mixing.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -129,49 +127,54 @@ bool CondensedTurns::lay_reference(const Answers& with) {
   return true;
 }
 
-bool CondensedTurns::solve(const Answers& with, Eigen::VectorXd& gaps) {
-  if (!lay_reference(with)) return false;
-  ReferenceFaces& reference = body_.reference;
-  std::vector<Eigen::Index> others;
+double CondensedTurns::less_at(const Answers& with, Eigen::Index k,
+                               const Eigen::Ref<const Eigen::VectorXd>& gaps) const {
+  const double pressed = with.with_pressure[k];
+  const double less = softer(with, k) * gaps[k];
+  return pressed == 0.0 ? less : less - lengths_[k] * pressed * gaps[across_of_[std::size_t(k)]];
+}
+
+CondensedTurns::Others CondensedTurns::others(const Answers& with) const {
+  Others others;
   for (Eigen::Index k = 0; k < gaps_.size(); ++k) {
     if (softer(with, k) != 0.0 || with.given[k] != base_given_[k] || with.with_pressure[k] != 0.0)
-      others.push_back(k);
+      others.places.push_back(k);
   }
-  // g = h + C_R q, where q is what these places exert less than in the reference
-  const auto at = reference.need(body_.compliance, others);
-  const auto& columns = reference.columns();
-  const auto size = Eigen::Index(others.size());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
-  const auto less_at = [&](Eigen::Index i, const auto& gap_at) {
-    const Eigen::Index k = others[std::size_t(i)];
-    double less = softer(with, k) * gap_at(k);
-    if (with.with_pressure[k] != 0.0)
-      less -= lengths_[k] * with.with_pressure[k] * gap_at(across_of_[std::size_t(k)]);
-    return less;
-  };
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const auto column = columns.col(at[std::size_t(j)]);
-    for (Eigen::Index i = 0; i < size; ++i)
-      matrix(i, j) -= less_at(i, [&](Eigen::Index k) { return column[k]; });
+  others.at = body_.reference.need(body_.compliance, others.places);
+  const auto count = Eigen::Index(others.places.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const auto column = body_.reference.columns().col(others.at[std::size_t(j)]);
+    for (Eigen::Index i = 0; i < count; ++i)
+      matrix(i, j) -= less_at(with, others.places[std::size_t(i)], column);
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
-  const auto moved = [&](Eigen::VectorXd base, double given) {
-    Eigen::VectorXd less(size);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const Eigen::Index k = others[std::size_t(i)];
-      less[i] = less_at(i, [&](Eigen::Index n) { return base[n]; }) -
-                given * lengths_[k] * (with.given[k] - base_given_[k]);
-    }
-    less = factor.solve(less);
-    for (Eigen::Index j = 0; j < size; ++j) base += less[j] * columns.col(at[std::size_t(j)]);
-    return base;
-  };
-  gaps = moved(base_, 1.0);
+  others.factor.compute(matrix);
+  return others;
+}
+
+Eigen::VectorXd CondensedTurns::moved(const Others& others, const Answers& with,
+                                      Eigen::VectorXd gaps, const Eigen::VectorXd& given) const {
+  Eigen::VectorXd less(Eigen::Index(others.places.size()));
+  for (Eigen::Index i = 0; i < less.size(); ++i) {
+    const Eigen::Index k = others.places[std::size_t(i)];
+    less[i] = less_at(with, k, gaps) - lengths_[k] * given[k];
+  }
+  less = others.factor.solve(less);
+  for (Eigen::Index j = 0; j < less.size(); ++j)
+    gaps += less[j] * body_.reference.columns().col(others.at[std::size_t(j)]);
+  return gaps;
+}
+
+bool CondensedTurns::solve(const Answers& with, Eigen::VectorXd& gaps) {
+  if (!lay_reference(with)) return false;
+  const Others turned = others(with);
+  gaps = moved(turned, with, base_, with.given - base_given_);
   if (refines_) {
     const Eigen::VectorXd less =
         lengths_.cwiseProduct(closed_springs_.cwiseProduct(gaps) - tractions_at(with, gaps));
     const Eigen::VectorXd left = closed_gaps_ - gaps + body_.compliance * less;
-    gaps += moved(reference.moved(body_.compliance, left), 0.0);
+    gaps += moved(turned, with, body_.reference.moved(body_.compliance, left),
+                  Eigen::VectorXd::Zero(gaps.size()));
   }
   return gaps.allFinite();
 }

@@ -6,6 +6,7 @@
 #include "core/mechanics/reference_faces.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <vector>
 
@@ -63,6 +64,19 @@ class CondensedTurns {
   double softer(const Answers& with, Eigen::Index place) const;
   /// A reference that is near, and gaps with it; false where there is none.
   bool lay_reference(const Answers& with);
+  /// Places that are not as in the reference, and the factor for what they exert less, q:
+  /// g = h + C_R q with q = less_at(g).
+  struct Others {
+    std::vector<Eigen::Index> places, at;  ///< at: their columns of C_R
+    Eigen::PartialPivLU<Eigen::MatrixXd> factor;
+  };
+  Others others(const Answers& with) const;
+  /// What a place exerts less than in the reference at such gaps, besides given tractions, N/m.
+  double less_at(const Answers& with, Eigen::Index place,
+                 const Eigen::Ref<const Eigen::VectorXd>& gaps) const;
+  /// From gaps as the reference has them. given: tractions that places exert more than there, Pa.
+  Eigen::VectorXd moved(const Others& others, const Answers& with, Eigen::VectorXd gaps,
+                        const Eigen::VectorXd& given) const;
   /// Gaps with such springs; false where these do not hold the body.
   bool solve(const Answers& with, Eigen::VectorXd& gaps);
   /// Share of the way to gaps and tractions `there` at which all is in balance along the way.

@@ -33,6 +33,11 @@ ContactAnswer opened(const ContactSpec& s, double largest, double gap, double se
 
 }  // namespace
 
+bool can_rub(const ContactSpec& s) {
+  return s.law == ContactLaw::coulomb && s.tangential_stiffness > 0.0 &&
+         (s.friction > 0.0 || s.cohesion > 0.0);
+}
+
 double limit_at(const ContactSpec& s, double gap) {
   if (gap > 0.0) return s.law == ContactLaw::cohesive ? s.normal_stiffness * gap : 0.0;
   return s.friction * s.normal_stiffness * -gap + s.cohesion;

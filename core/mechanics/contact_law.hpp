@@ -39,11 +39,17 @@ struct ContactAnswer {
   double normal_spring = 0.0;
   double tangential_spring = 0.0;
   /// Gaps (m, with the body's share) where these springs exert nothing; other than 0 in
-  /// steps of FaceBarrier only.
+  /// steps of FaceBarrier, and where faces are held.
   double normal_zero = 0.0;
   double tangential_zero = 0.0;
   double largest = 0.0;  ///< m, opening so far should this equilibrium be accepted; cohesive faces
 };
+
+/// Do faces that touch exert shear?
+bool can_rub(const ContactSpec& spec);
+
+/// What limits of friction do while faces settle.
+enum class FrictionLimits { follow_pressures, stay };
 
 /// What the faces of a patch do to each other, Pa; as in ContactAnswer.
 struct FaceTraction {

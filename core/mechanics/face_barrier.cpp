@@ -82,7 +82,8 @@ bool FaceBarrier::suits(const ContactPatches& patches) {
 }
 
 FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double>& compliances,
-                         const std::vector<ContactGap>& gaps, double softness, Limits limits)
+                         const std::vector<ContactGap>& gaps, double softness,
+                         FrictionLimits limits)
     : patches_(patches.patches().size()), softness_(softness) {
   double largest = 0.0, widest = 0.0;
   for (std::size_t k = 0; k < patches.patches().size(); ++k) {
@@ -97,14 +98,12 @@ FaceBarrier::FaceBarrier(const ContactPatches& patches, const std::vector<double
       return Law{1 + face.body * spring, 1 / spring + face.body};
     };
     face.across = law(spec.normal_stiffness);
-    face.sticks = spec.law == ContactLaw::coulomb && spec.tangential_stiffness > 0.0 &&
-                  (spec.friction > 0.0 || spec.cohesion > 0.0);
-    face.rubs = face.sticks;
-    if (limits == Limits::stay) {
+    face.rubs = can_rub(spec);
+    if (limits == FrictionLimits::stay) {
       face.given = patch.limit;
-      face.rubs = face.sticks && patch.limit > 0.0;
+      face.rubs = face.rubs && patch.limit > 0.0;
     }
-    if (face.sticks) face.along = law(spec.tangential_stiffness);
+    if (face.rubs) face.along = law(spec.tangential_stiffness);
     largest = std::max(largest, -patch.now.normal);
     widest = std::max(widest, std::abs(gaps[k].normal * face.across.scale));
     faces_.push_back(face);
@@ -203,44 +202,10 @@ std::vector<ContactAnswer> FaceBarrier::answers() const {
   return answers;
 }
 
-std::vector<ContactAnswer> FaceBarrier::closed() const {
-  std::vector<ContactAnswer> answers(patches_);
-  for (const Face& face : faces_) {
-    ContactAnswer& a = answers[face.patch] = {};
-    a.state = ContactState::stick;
-    a.normal_spring = face.spec.normal_stiffness;
-    if (face.sticks) a.tangential_spring = face.spec.tangential_stiffness;
-  }
-  return answers;
-}
-
-std::vector<ContactAnswer> FaceBarrier::held_at(const std::vector<ContactGap>& gaps) const {
-  auto answers = closed();
-  for (const Face& face : faces_) {
-    ContactAnswer& a = answers[face.patch];
-    const ContactGap& gap = gaps[face.patch];
-    a.normal_zero = gap.normal * face.across.scale + face.across.compliance * face.touch.second;
-    if (face.sticks)
-      a.tangential_zero = gap.tangential * face.along.scale - face.along.compliance * face.shear;
-  }
-  return answers;
-}
-
-void FaceBarrier::take(const std::vector<FaceTraction>& tractions) {
-  for (Face& face : faces_) {
-    face.touch.second = -tractions[face.patch].normal;
-    face.shear = tractions[face.patch].tangential;
-  }
-}
-
-void FaceBarrier::add_held(const std::vector<ContactGap>& held,
-                           const std::vector<ContactGap>& gaps) {
-  for (Face& face : faces_) {
-    const ContactGap &from = held[face.patch], &to = gaps[face.patch];
-    face.touch.second -= face.spec.normal_stiffness * (to.normal - from.normal);
-    if (face.sticks)
-      face.shear += face.spec.tangential_stiffness * (to.tangential - from.tangential);
-  }
+std::vector<FaceTraction> FaceBarrier::tractions() const {
+  std::vector<FaceTraction> tractions(patches_);
+  for (const Face& face : faces_) tractions[face.patch] = {-face.touch.second, face.shear};
+  return tractions;
 }
 
 void FaceBarrier::follow(const std::vector<ContactGap>& gaps) {
@@ -385,21 +350,6 @@ void FaceBarrier::restart() {
     face.forwards.first = product / face.forwards.second;
     face.backwards.first = product / face.backwards.second;
   }
-}
-
-double FaceBarrier::unbalanced(const std::vector<ContactGap>& gaps) const {
-  double most = 0.0, largest = 0.0, widest = tiny;
-  for (const Face& face : faces_) {
-    const ContactGap& gap = gaps[face.patch];
-    widest = std::max(widest, gap.normal);
-    const double limit = face.given >= 0.0 ? face.given : limit_at(face.spec, gap.normal);
-    const ContactAnswer a = contact_answer(face.spec, 0.0, gap, limit);
-    most = std::max(
-        {most, std::abs(a.normal + face.touch.second), std::abs(a.tangential - face.shear)});
-    largest = std::max({largest, std::abs(a.normal), std::abs(a.tangential)});
-  }
-  // where all are open, what they still exert is measured by what would close them
-  return most / std::max(most, largest > 0.0 ? largest : widest / softness_);
 }
 
 }  // namespace cdca

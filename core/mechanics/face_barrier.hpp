@@ -22,13 +22,11 @@ class FaceBarrier {
  public:
   /// Can all these faces be brought into balance so? Not cohesive ones, which soften.
   static bool suits(const ContactPatches& patches);
-  /// What limits of friction do.
-  enum class Limits { follow_pressures, stay };
   /// compliances: of the body at every patch, m/Pa; gaps: of the state to start from; softness: of
   /// the body over a length like that of a patch, m/Pa. There must be no cohesive faces.
   FaceBarrier(const ContactPatches& patches, const std::vector<double>& compliances,
               const std::vector<ContactGap>& gaps, double softness,
-              Limits limits = Limits::follow_pressures);
+              FrictionLimits limits = FrictionLimits::follow_pressures);
 
   /// Gaps of a state in which faces answer so, by patch. The springs of the answers are the same in
   /// all solves of a step.
@@ -41,24 +39,8 @@ class FaceBarrier {
   /// Has the last step ended in a new start? Then body and faces are out of balance by any amount.
   bool began_anew() const { return began_anew_; }
 
-  /// What all faces would answer if they were closed and stuck: no spring of a step is stiffer.
-  std::vector<ContactAnswer> closed() const;
-
-  /// The tractions of others' steps count as its own.
-  void take(const std::vector<FaceTraction>& tractions);
-  /// Faces that were held at some gaps, as of held_at(), are at others: their springs have told the
-  /// difference.
-  void add_held(const std::vector<ContactGap>& held, const std::vector<ContactGap>& gaps);
-
-  /// Answers with the springs of closed faces which exert at such gaps what the steps have come to.
-  std::vector<ContactAnswer> held_at(const std::vector<ContactGap>& gaps) const;
-
-  /// The largest difference between a traction that the steps have come to and what the laws answer
-  /// to such gaps, as a part of the largest traction; where all faces are open, of what would close
-  /// the widest.
-  double unbalanced(const std::vector<ContactGap>& gaps) const;
-
-  double largest_pressure() const;
+  /// What the steps have come to, by patch.
+  std::vector<FaceTraction> tractions() const;
 
  private:
   /// Two numbers whose product goes to 0, and what the last solve makes of them.
@@ -80,9 +62,8 @@ class FaceBarrier {
   struct Face {
     std::size_t patch = 0;
     ContactSpec spec;
-    bool sticks = false;  ///< when closed: has a spring along
-    bool rubs = false;    ///< the same, and its limit is not 0
-    double body = 0.0;    ///< compliance, m/Pa
+    bool rubs = false;
+    double body = 0.0;  ///< compliance, m/Pa
     Law across, along;
     Pair touch;                ///< opening and pressure
     Pair forwards, backwards;  ///< slips, and what is left to the limit
@@ -112,6 +93,7 @@ class FaceBarrier {
   void restart();
   Aim aim() const;
   void aim(const Aim& at);
+  double largest_pressure() const;
   double mean() const;
   double most() const;
   std::vector<double> limits() const;

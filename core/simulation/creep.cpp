@@ -19,35 +19,37 @@ struct DragStep {
   bool limits_agree = false;
 };
 
-/// limits_go_along: those of friction follow the pressures, if this leads to a balance.
+/// All faces at once. limits_go_along: those of friction follow the pressures, if this leads to a
+/// balance.
+FaceBalance::Found balance(Model& model, ContactSolves& solves, Forces& given,
+                           const FaceTurns::Rule& rule, bool limits_go_along) {
+  FaceBalance::Rule all{.enough = rule.enough, .drag = rule.drag, .limits_stay = true};
+  if (!limits_go_along) return FaceBalance(model, solves, given, all).find();
+  const Model::ContactMemory memory = model.contact_memory();
+  const std::vector<double> state = model.state();
+  FaceBalance::Rule along = all;
+  along.limits_stay = false;
+  along.turns_alone = true;
+  const FaceBalance::Found at_once = FaceBalance(model, solves, given, along).find();
+  if (at_once.found) return at_once;
+  model.remember(memory);
+  model.state() = state;
+  FaceBalance::Found found = FaceBalance(model, solves, given, all).find();
+  found.steps += at_once.steps;
+  return found;
+}
+
 DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurns::Rule& rule,
               bool limits_go_along) {
   try {
     FaceTurns turns(model, solves, given, rule);
     const FaceTurns::End end = turns.turn();
-    FaceBalance::Found balance{.found = end == FaceTurns::End::balanced};
+    FaceBalance::Found found{.found = end == FaceTurns::End::balanced};
     if (end == FaceTurns::End::jammed) {
-      FaceBalance::Rule all{.enough = rule.enough, .drag = rule.drag, .limits_stay = true};
-      if (limits_go_along) {
-        FaceBalance::Rule at_once = all;
-        at_once.limits_stay = false;
-        at_once.turns_alone = true;
-        const Model::ContactMemory memory = model.contact_memory();
-        const std::vector<double> state = model.state();
-        balance = FaceBalance(model, solves, given, at_once).find();
-        if (!balance.found) {
-          model.remember(memory);
-          model.state() = state;
-        }
-      }
-      if (!balance.found) {
-        const int steps = balance.steps;
-        balance = FaceBalance(model, solves, given, all).find();
-        balance.steps += steps;
-      }
-      turns.take(balance.unbalanced, balance.scale);
+      found = balance(model, solves, given, rule, limits_go_along);
+      turns.take(found.unbalanced, found.scale);
     }
-    return {balance.found,      turns.count(),  balance.steps,
+    return {found.found,        turns.count(),  found.steps,
             turns.limits_off(), turns.pulled(), turns.limits_agree()};
   } catch (const SolveError&) {
     return {};  // springs of faces so different that no solve is exact; more drag helps here, too

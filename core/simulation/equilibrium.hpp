@@ -13,7 +13,8 @@ std::unique_ptr<EquilibriumSolver> make_solver(const Model& model);
 
 struct Equilibrium {
   SolverReport solver;  ///< of the slowest linear solve
-  /// How often touching faces changed until they settled; 0: none touch.
+  /// How often touching faces changed until they settled, all turns on the condensed body in a row
+  /// being one; 0: none touch.
   int contact_iterations = 0;
   int linear_solves = 1;  ///< in all turns
   /// Largest traction of a face that the last solve did not count with, over the largest traction.

@@ -2,6 +2,7 @@
 #include "core/simulation/face_balance.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/mechanics/body_at_faces.hpp"
 #include "core/mechanics/condensed_turns.hpp"
 
 #include <algorithm>
@@ -30,10 +31,11 @@ FaceBalance::FaceBalance(Model& model, ContactSolves& solves, Forces& given, con
       given_(given),
       rule_(rule),
       weak_(rule.drag > 0.0 ? rule.drag : ContactSolves::loosest),
-      faces_(model.contact(),
-             model.contact_spots().compliances(model.contact(), model.communicator()),
-             solves.gaps(), model.grid().smallest_side() / model.spec().material.young,
-             rule.limits_stay ? FaceBarrier::Limits::stay : FaceBarrier::Limits::follow_pressures),
+      limits_(rule.limits_stay ? FrictionLimits::stay : FrictionLimits::follow_pressures),
+      compliances_(model.contact_spots().compliances(model.contact(), model.communicator())),
+      softness_(model.grid().smallest_side() / model.spec().material.young),
+      held_(model.contact(), compliances_, softness_, limits_),
+      faces_(model.contact(), compliances_, solves.gaps(), softness_, limits_),
       nearest_(model.state()) {}
 
 FaceBalance::Found FaceBalance::find() {
@@ -72,13 +74,13 @@ void FaceBalance::go_condensed() {
   anchored_anew_ = false;
   ++rounds_;
   std::vector<ContactGap> at = solves_.gaps();
-  const auto closed = faces_.closed();
+  const auto closed = held_.closed();
   solves_.answer(closed);
   model_.renew_stiffness(weak_);
   solves_.once({});
   scale_ = solves_.slowest().scale;
   const auto closed_gaps = solves_.gaps();
-  Model::FacesOfBody& condensed = model_.condensed(closed);
+  FacesOfBody& condensed = model_.condensed(closed);
   const double left_before = left_, unbalanced_before = now_.unbalanced;
   if (turn_condensed(condensed, closed_gaps, at) || rule_.turns_alone) return;
   left_ = left_before;
@@ -108,7 +110,7 @@ void FaceBalance::go_condensed() {
       at[p].tangential += share * (there[p].tangential - at[p].tangential);
     }
     left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_;
-    now_.unbalanced = faces_.unbalanced(at);
+    now_.unbalanced = held_.unbalanced(faces_.tractions(), at);
     if (off() < least) {
       least = off();
       nearest = {faces_, at, left_};
@@ -122,15 +124,19 @@ void FaceBalance::go_condensed() {
   }
   // the displacements that go with these gaps
   faces_ = std::move(nearest.faces);
-  solves_.answer(faces_.held_at(nearest.gaps));
-  solves_.once({});
+  const auto tractions = move_to(nearest.gaps, faces_.tractions());
   left_ = std::max(nearest.left, solves_.slowest().residual);
-  FaceBarrier held = faces_;
-  held.add_held(nearest.gaps, solves_.gaps());
-  judge(held);
+  judge(tractions);
 }
 
-bool FaceBalance::turn_condensed(Model::FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
+std::vector<FaceTraction> FaceBalance::move_to(const std::vector<ContactGap>& gaps,
+                                               const std::vector<FaceTraction>& tractions) {
+  solves_.answer(held_.exerting(tractions, gaps));
+  solves_.once({});
+  return held_.at(solves_.gaps(), tractions, gaps);
+}
+
+bool FaceBalance::turn_condensed(FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
                                  std::vector<ContactGap> from) {
   constexpr int most = 4;
   for (int k = 0; k < most; ++k) {
@@ -140,16 +146,12 @@ bool FaceBalance::turn_condensed(Model::FacesOfBody& condensed, std::vector<Cont
     const auto balance = turns.find(from, model_.communicator());
     ++now_.steps;
     if (!balance.found) return false;
-    FaceBarrier faces = faces_;
-    faces.take(balance.tractions);
-    solves_.answer(faces.held_at(balance.gaps));
-    solves_.once({});
+    const auto tractions = move_to(balance.gaps, balance.tractions);
     left_ = solves_.slowest().residual;
-    from = solves_.gaps();
-    faces.add_held(balance.gaps, from);
-    judge(faces);
+    judge(tractions);
     if (now_.found || anchored_anew_) return true;
     // the whole body tells its gaps better than the condensed one where bodies are nearly loose
+    from = solves_.gaps();
     for (std::size_t p = 0; p < from.size(); ++p) {
       closed_gaps[p].normal += from[p].normal - balance.gaps[p].normal;
       closed_gaps[p].tangential += from[p].tangential - balance.gaps[p].tangential;
@@ -180,7 +182,7 @@ void FaceBalance::step_whole() {
   for (std::size_t k = 0; k < state.size(); ++k)
     state[k] = before[k] + share * (state[k] - before[k]);
   left_ = faces_.began_anew() ? 1.0 : (1 - share) * left_ + share * solves_.slowest().residual;
-  judge(faces_);
+  judge(faces_.tractions());
   gave_up_ = !is_of_use_to_go_on(least_);
 }
 
@@ -189,14 +191,16 @@ bool FaceBalance::is_of_use_to_go_on(double least) {
   return ++restarts_ <= rule_.most_restarts && least > rule_.near;
 }
 
-void FaceBalance::judge(const FaceBarrier& faces) {
+void FaceBalance::judge(const std::vector<FaceTraction>& tractions) {
   const std::vector<double>& state = model_.state();
-  now_.unbalanced = faces.unbalanced(solves_.gaps());
+  now_.unbalanced = held_.unbalanced(tractions, solves_.gaps());
   if (off() < least_) {
     least_ = off();
     nearest_ = state;
   }
-  const double told_apart = std::max(rule_.enough, solves_.rounding(faces.largest_pressure()));
+  double largest = 0.0;
+  for (const FaceTraction& t : tractions) largest = std::max(largest, -t.normal);
+  const double told_apart = std::max(rule_.enough, solves_.rounding(largest));
   now_.found = off() <= told_apart;
   if (drags()) return;
   std::vector<double> move = state;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/mechanics/face_barrier.hpp"
+#include "core/mechanics/held_faces.hpp"
 #include "core/simulation/contact_solves.hpp"
 
 #include <algorithm>
@@ -42,12 +43,16 @@ class FaceBalance {
   /// As far as it goes with the body condensed to its faces, from where faces are balanced or not.
   void go_condensed();
   /// Turns of faces on it from such gaps; whether they lead to a balance of the whole body.
-  bool turn_condensed(Model::FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
+  bool turn_condensed(FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
                       std::vector<ContactGap> from);
   /// One step with the whole body.
   void step_whole();
-  /// Whether the state at hand is the one that is looked for.
-  void judge(const FaceBarrier& faces);
+  /// Moves the whole body to where faces exert such tractions at such gaps, as far as both agree
+  /// with it. Returns what they exert then.
+  std::vector<FaceTraction> move_to(const std::vector<ContactGap>& gaps,
+                                    const std::vector<FaceTraction>& tractions);
+  /// Whether the state at hand is the one that is looked for. tractions: of its faces.
+  void judge(const std::vector<FaceTraction>& tractions);
   double off() const { return std::max(now_.unbalanced, left_); }
   /// After a step that has not found it. least: unbalanced so far.
   bool is_of_use_to_go_on(double least);
@@ -59,6 +64,10 @@ class FaceBalance {
   Forces& given_;
   Rule rule_;
   double weak_;  ///< springs of bodies
+  FrictionLimits limits_;
+  std::vector<double> compliances_;  ///< of the body at every patch, m/Pa
+  double softness_;                  ///< of the body over a patch, m/Pa
+  HeldFaces held_;
   FaceBarrier faces_;
   Found now_;
   double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way

@@ -198,24 +198,11 @@ void Model::make_stiffness(double weak_share, const CarriedCells* carried) {
   if (hierarchy_.count() > 1) built_springs_ = contact_.springs();
 }
 
-Model::FacesOfBody& Model::condensed(const std::vector<ContactAnswer>& closed) {
-  constexpr std::size_t kept = 3;
-  auto now = std::make_unique<FacesOfBody>();
-  now->places = spots_.spring_places(closed, contact_, communicator_);
-  now->weak_share = weak_share_;
-  now->all_held = all_held_;
-  const auto same = std::find_if(condensed_.begin(), condensed_.end(), [&](const auto& known) {
-    return known->places == now->places && known->all_held == now->all_held &&
-           known->weak_share == now->weak_share;
+FacesOfBody& Model::condensed(const std::vector<ContactAnswer>& closed) {
+  const auto places = spots_.spring_places(closed, contact_, communicator_);
+  return condensed_.of({places, weak_share_, all_held_, {}, {}}, [&] {
+    return hierarchy_.compliance(places.size(), spots_.effects_on(places));
   });
-  if (same != condensed_.end()) {
-    std::rotate(condensed_.begin(), same, same + 1);
-    return *condensed_.front();
-  }
-  now->compliance = hierarchy_.compliance(now->places.size(), spots_.effects_on(now->places));
-  condensed_.insert(condensed_.begin(), std::move(now));
-  condensed_.resize(std::min(kept, condensed_.size()));
-  return *condensed_.front();
 }
 
 void Model::lay_cracks(CrackRegistry registry) {

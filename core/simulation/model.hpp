@@ -6,14 +6,13 @@
 #include "core/cells/cell_stiffness.hpp"
 #include "core/cracks/crack_registry.hpp"
 #include "core/hierarchy/hierarchy.hpp"
-#include "core/mechanics/body_at_faces.hpp"
 #include "core/mechanics/contact_spots.hpp"
 #include "core/mechanics/external_forces.hpp"
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/mechanics/material.hpp"
-#include "core/mechanics/reference_faces.hpp"
 #include "core/mechanics/supports.hpp"
 #include "core/simulation/case_spec.hpp"
+#include "core/simulation/condensed_bodies.hpp"
 
 #include <memory>
 #include <optional>
@@ -113,15 +112,8 @@ class Model {
                                                   const TipChoice& wanted = {}) const;
   /// The scales of the multilevel solver; empty for the other methods.
   const Hierarchy& hierarchy() const { return hierarchy_; }
-  /// The body condensed to the faces of its cracks.
-  struct FacesOfBody {
-    std::vector<SpringPlace> places;
-    Eigen::MatrixXd compliance;
-    double weak_share = 0.0;
-    bool all_held = false;
-    ReferenceFaces reference;  ///< empty at first
-  };
-  /// Whether it can be: only where one factor moves all cells; elsewhere it would take too much.
+  /// Whether the body can be condensed to its faces: only where one factor moves all cells;
+  /// elsewhere it would take too much.
   bool condenses() const { return hierarchy_.count() == 1; }
   /// closed: answers with springs of closed faces, which are in the stiffness. Some are kept, for
   /// other springs that were in the stiffness, until cracks grow. Collective.
@@ -196,8 +188,8 @@ class Model {
   bool all_held_ = false;            ///< by weak springs
   double rubbed_ = 0.0;  ///< work of friction on the way to the next equilibrium, J per metre
   Hierarchy hierarchy_;
-  std::vector<std::unique_ptr<FacesOfBody>> condensed_;  ///< used last first
-  double weak_share_ = 0.0;                              ///< in the stiffness
+  CondensedBodies condensed_;
+  double weak_share_ = 0.0;  ///< in the stiffness
   std::vector<double> state_;
   std::vector<double> origin_;  ///< empty: state_
 };

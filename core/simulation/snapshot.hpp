@@ -58,7 +58,8 @@ struct StepRecord {
   double external_work = 0.0;  ///< J, since the start of the run
   double dissipated = 0.0;     ///< J, external work that is not stored: friction and new cracks
   double friction_work = 0.0;  ///< J, the part that friction took
-  int contact_iterations = 0;  ///< most linear solves until touching faces settled; 0: none
+  int contact_iterations =
+      0;  ///< most turns until touching faces settled, see Equilibrium; 0: none
   double contact_unbalanced = 0.0;  ///< worst of the step; see Equilibrium
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Touching faces stick, slip, open and drive wings alike on any number of ranks, with rank borders
 /// along them and across them.
+#include "core/mechanics/body_at_faces.hpp"
 #include "core/mechanics/condensed_turns.hpp"
-#include "core/mechanics/face_barrier.hpp"
+#include "core/mechanics/held_faces.hpp"
 #include "core/mechanics/interaction_integral.hpp"
 #include "core/simulation/contact_solves.hpp"
 #include "core/simulation/simulation.hpp"
@@ -165,7 +166,8 @@ TEST(CondensedBodyParallel, MovesItsFacesAsTheWholeBody) {
     return solves.gaps();
   };
   const auto body_share = model.contact_spots().compliances(model.contact(), model.communicator());
-  const auto closed = FaceBarrier(model.contact(), body_share, solves.gaps(), 1.0).closed();
+  const auto closed =
+      HeldFaces(model.contact(), body_share, 1.0, FrictionLimits::follow_pressures).closed();
   const auto closed_gaps = gaps_of_whole(closed);
   const auto& condensed = model.condensed(closed);
   EXPECT_EQ(condensed.places.size(), 2 * closed.size());
@@ -208,9 +210,8 @@ TEST(CondensedBodyParallel, TurnsItsFacesToABalanceOfTheWholeBody) {
     ContactPatches& contact = model.contact();
     const auto share = model.contact_spots().compliances(contact, model.communicator());
     const auto from = solves.gaps();
-    using Limits = FaceBarrier::Limits;
-    FaceBarrier faces(contact, share, from, 1.0,
-                      limits_stay ? Limits::stay : Limits::follow_pressures);
+    const HeldFaces faces(contact, share, 1.0,
+                          limits_stay ? FrictionLimits::stay : FrictionLimits::follow_pressures);
     const auto limits = contact.limits();
     const auto closed = faces.closed();
     const auto solve = [&](const std::vector<ContactAnswer>& answers) {
@@ -220,21 +221,21 @@ TEST(CondensedBodyParallel, TurnsItsFacesToABalanceOfTheWholeBody) {
       return solves.gaps();
     };
     const auto closed_gaps = solve(closed);
-    Model::FacesOfBody& body = model.condensed(closed);
+    FacesOfBody& body = model.condensed(closed);
     CondensedTurns turns(contact, {body.places, body.compliance, closed_gaps, body.reference},
                          {enough, limits_stay});
     const auto found = turns.find(from, world());
     ASSERT_TRUE(found.found);
     EXPECT_GT(found.turns, 1);
-    faces.take(found.tractions);
-    const auto gaps = solve(faces.held_at(found.gaps));
+    const auto gaps = solve(faces.exerting(found.tractions, found.gaps));
+    const auto exerted = faces.at(gaps, found.tractions, found.gaps);
     double largest = 0.0, off = 0.0;
     std::set<ContactState> states;
     for (std::size_t p = 0; p < gaps.size(); ++p) {
       const ContactSpec& law = contact.law_of(contact.patches()[p]);
       const double limit = limits_stay ? limits[p] : limit_at(law, gaps[p].normal);
       const ContactAnswer wanted = contact_answer(law, 0.0, gaps[p], limit);
-      const FaceTraction& is = found.tractions[p];
+      const FaceTraction& is = exerted[p];
       states.insert(wanted.state);
       largest = std::max({largest, std::abs(is.normal), std::abs(is.tangential)});
       off = std::max(

@@ -2,6 +2,7 @@
 /// Faces of a small body of springs come to balance where body and laws agree.
 #include "core/mechanics/face_barrier.hpp"
 
+#include "core/mechanics/held_faces.hpp"
 #include "core/simulation/model.hpp"
 #include "tests/plates.hpp"
 
@@ -57,6 +58,8 @@ struct Balance {
 Balance balance(const ContactPatches& patches, const Chain& across, const Chain& along) {
   const std::size_t n = patches.patches().size();
   FaceBarrier faces(patches, std::vector<double>(n, 0.0), std::vector<ContactGap>(n), 1 / body);
+  const HeldFaces held(patches, std::vector<double>(n, 0.0), 1 / body,
+                       FrictionLimits::follow_pressures);
   std::vector<ContactGap> there(n);
   const auto solve = [&](const std::vector<ContactAnswer>& answers) {
     Eigen::MatrixXd springs(Eigen::Index(n), 2), zeros = springs;
@@ -80,7 +83,7 @@ Balance balance(const ContactPatches& patches, const Chain& across, const Chain&
       go(found.gaps[k].normal, there[k].normal);
       go(found.gaps[k].tangential, there[k].tangential);
     }
-    found.unbalanced = faces.unbalanced(found.gaps);
+    found.unbalanced = held.unbalanced(faces.tractions(), found.gaps);
   }
   return found;
 }
