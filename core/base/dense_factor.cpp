@@ -12,7 +12,7 @@ extern "C" {
 void dsyrk_(const char* triangle, const char* transposed, const int* size, const int* inner,
             const double* alpha, const double* a, const int* a_rows, const double* beta, double* c,
             const int* c_rows);
-/// B = alpha B op(A)^-1 for A on the right.
+/// B = alpha B op(A)^-1 for A on the right, alpha op(A)^-1 B for A on the left.
 void dtrsm_(const char* side, const char* triangle, const char* transposed, const char* unit,
             const int* rows, const int* columns, const double* alpha, const double* a,
             const int* a_rows, double* b, const int* b_rows);
@@ -45,11 +45,14 @@ void DenseFactor::solve(Eigen::VectorXd& values) const {
   lower_.triangularView<Eigen::Lower>().transpose().solveInPlace(values);
 }
 
-void DenseFactor::solve_rows(Eigen::MatrixXd& rows) const {
+void DenseFactor::solve_columns(Eigen::MatrixXd& columns) const {
   constexpr double one = 1.0;
-  const int size = int(rows.cols()), count = int(rows.rows());
+  const int size = int(columns.rows()), count = int(columns.cols());
   if (size == 0 || count == 0) return;
-  dtrsm_("R", "L", "T", "N", &count, &size, &one, lower_.data(), &size, rows.data(), &count);
+  for (const char* transposed : {"N", "T"}) {
+    dtrsm_("L", "L", transposed, "N", &size, &count, &one, lower_.data(), &size, columns.data(),
+           &size);
+  }
 }
 
 }  // namespace cdca

@@ -14,8 +14,8 @@ class DenseFactor {
   bool compute(Eigen::MatrixXd matrix);
   /// values = matrix^-1 values.
   void solve(Eigen::VectorXd& values) const;
-  /// rows = rows L^-T.
-  void solve_rows(Eigen::MatrixXd& rows) const;
+  /// The same for all columns.
+  void solve_columns(Eigen::MatrixXd& columns) const;
 
  private:
   Eigen::MatrixXd lower_;

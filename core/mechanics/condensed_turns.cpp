@@ -17,10 +17,11 @@ namespace {
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr int most_turns = 400;     ///< of one balance
 constexpr int most_of_limits = 20;  ///< that limits of friction take in turns with faces
-constexpr int most_together = 12;   ///< turns in which limits go along
+constexpr int most_together = 40;   ///< turns in which limits go along
+constexpr int most_no_nearer = 15;  ///< of these: those that come no nearer
 constexpr int most_stuck = 5;       ///< turns that lead nowhere
 /// More springs that have changed than this part of all are a new reference.
-constexpr double few = 0.12;
+constexpr double few = 0.08;
 /// Moves that are no longer downhill may end there: the whole body tells whether it is enough.
 constexpr double rounding = 1e-5;
 constexpr double exactly = 1e-2;  ///< of what is enough: while turns still come nearer
@@ -123,7 +124,7 @@ bool CondensedTurns::lay_reference(const Answers& with) {
   if (base_.size() > 0) return true;
   base_given_ = with.given;
   const Eigen::VectorXd forces = lengths_.cwiseProduct(base_given_);
-  base_ = reference.moved(body_.compliance, closed_gaps_ - body_.compliance * forces);
+  base_ = reference.moved(closed_gaps_ - body_.compliance * forces);
   return true;
 }
 
@@ -173,21 +174,20 @@ bool CondensedTurns::solve(const Answers& with, Eigen::VectorXd& gaps) {
     const Eigen::VectorXd less =
         lengths_.cwiseProduct(closed_springs_.cwiseProduct(gaps) - tractions_at(with, gaps));
     const Eigen::VectorXd left = closed_gaps_ - gaps + body_.compliance * less;
-    gaps += moved(turned, with, body_.reference.moved(body_.compliance, left),
-                  Eigen::VectorXd::Zero(gaps.size()));
+    gaps += moved(turned, with, body_.reference.moved(left), Eigen::VectorXd::Zero(gaps.size()));
   }
   return gaps.allFinite();
 }
 
 double CondensedTurns::share_of_move(const Eigen::VectorXd& gaps_there,
-                                     const Eigen::VectorXd& tractions_there) {
+                                     const Eigen::VectorXd& tractions_there, Limits limits) {
   constexpr double balanced = 1e-2;
   const Eigen::VectorXd from = gaps_, move = gaps_there - gaps_;
   const Eigen::VectorXd along = lengths_.cwiseProduct(move);
   const double first = along.dot(tractions_), last = along.dot(tractions_there);
   const auto work = [&](double share) {
     gaps_ = from + share * move;
-    return first + share * (last - first) - along.dot(answers(Limits::given).tractions);
+    return first + share * (last - first) - along.dot(answers(limits).tractions);
   };
   const double start = work(0.0);
   double low = 0.0, high = 1.0, at_low = start, at_high = work(1.0);
@@ -206,6 +206,17 @@ double CondensedTurns::share_of_move(const Eigen::VectorXd& gaps_there,
   gaps_ = from;
   downhill_ = downhill;
   return found;
+}
+
+bool CondensedTurns::turn(const Answers& from, Limits limits) {
+  ++turns_;
+  Eigen::VectorXd there;
+  if (!solve(from, there)) return false;
+  const Eigen::VectorXd tractions = tractions_at(from, there);
+  const double share = share_of_move(there, tractions, limits);
+  gaps_ += share * (there - gaps_);
+  tractions_ += share * (tractions - tractions_);
+  return true;
 }
 
 double CondensedTurns::off_from(const Answers& wanted) const {
@@ -230,14 +241,8 @@ bool CondensedTurns::settle_at_limits() {
     if (is_enough(off, before)) return true;
     before = off;
     refines_ = off < near || stuck > 0;
-    ++turns_;
-    Eigen::VectorXd there;
-    if (!solve(now, there)) return false;
-    const Eigen::VectorXd tractions = tractions_at(now, there);
-    const double share = share_of_move(there, tractions);
+    if (!turn(now, Limits::given)) return false;
     stuck += !downhill_;
-    gaps_ += share * (there - gaps_);
-    tractions_ += share * (tractions - tractions_);
   }
   rounded_ = stuck == most_stuck && before <= rounding;
   return rounded_;
@@ -245,18 +250,14 @@ bool CondensedTurns::settle_at_limits() {
 
 bool CondensedTurns::settle_with_pressures() {
   double best = std::numeric_limits<double>::infinity(), before = best;
-  for (int k = 0, no_nearer = 0; k < most_together && no_nearer < most_stuck; ++k) {
+  for (int k = 0, no_nearer = 0; k < most_together && no_nearer < most_no_nearer; ++k) {
     const Answers now = answers(Limits::follow);
     const double off = off_from(now);
     if (is_enough(off, before)) return true;
     before = off;
     if (off >= best) ++no_nearer;
     best = std::min(best, off);
-    ++turns_;
-    Eigen::VectorXd there;
-    if (!solve(now, there)) return false;
-    gaps_ = there;
-    tractions_ = tractions_at(now, gaps_);
+    if (!turn(now, Limits::follow) || (!downhill_ && off > rounding)) return false;
   }
   return false;
 }
@@ -281,7 +282,8 @@ bool CondensedTurns::settle() {
     if (settle_with_pressures()) return true;
     gaps_ = gaps;
     tractions_ = tractions;
-    if (rounded_ && off_from(answers(Limits::follow)) <= rounding) return true;
+    const double off = off_from(answers(Limits::follow));
+    if (off <= rule_.enough || (rounded_ && off <= rounding)) return true;
     limits_ = turns.next(limits_, found);
     for (double& limit : limits_) limit = std::max(0.0, limit);
   }

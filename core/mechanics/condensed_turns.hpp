@@ -14,8 +14,9 @@ namespace cdca {
 
 /// Newton's method for the laws of the faces. As long as limits of friction stay, loads, body and
 /// faces have a convex potential; with a search along each move, faces get to its lowest point.
-/// Where limits follow the pressures, they do so first all at once in the springs of sliding faces,
-/// which settles the last changes, and where this leads nowhere in turns with that. With few
+/// Where limits follow the pressures there is no potential, but what faces and body exert along a
+/// move tells as well how far to go: limits go along in the springs of sliding faces, which settles
+/// the last changes, and where this leads nowhere they and the faces take turns. With few
 /// changes from a state that is known a turn costs little: there may be hundreds. All is done on
 /// the first rank, lest ranks differ by rounding.
 class CondensedTurns {
@@ -80,7 +81,10 @@ class CondensedTurns {
   /// Gaps with such springs; false where these do not hold the body.
   bool solve(const Answers& with, Eigen::VectorXd& gaps);
   /// Share of the way to gaps and tractions `there` at which all is in balance along the way.
-  double share_of_move(const Eigen::VectorXd& gaps_there, const Eigen::VectorXd& tractions_there);
+  double share_of_move(const Eigen::VectorXd& gaps_there, const Eigen::VectorXd& tractions_there,
+                       Limits limits);
+  /// To where springs as of `from` lead, or a share of that way; false where they hold no body.
+  bool turn(const Answers& from, Limits limits);
   double off_from(const Answers& wanted) const;
   bool is_enough(double off, double before) const;
   /// Where the body comes to from the gaps at hand while faces hold on to each other.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/reference_faces.hpp"
 
-#include "core/base/dense_factor.hpp"
 #include "core/base/dense_product.hpp"
 
 #include <utility>
@@ -12,26 +11,25 @@ bool ReferenceFaces::refer(const Eigen::MatrixXd& compliance, const Eigen::Vecto
   missing_.resize(0);
   at_.assign(std::size_t(missing.size()), -1);
   used_ = 0;
-  std::vector<Eigen::Index> softer;
-  for (Eigen::Index k = 0; k < missing.size(); ++k) {
-    if (missing[k] > 0.0) softer.push_back(k);
-  }
-  // H = C r L^-T for r^2 = w (k0 - kR) and L L^T = I - r C r
-  const Eigen::VectorXd roots = missing(softer).cwiseSqrt();
-  half_ = compliance(Eigen::all, softer) * roots.asDiagonal();
-  Eigen::MatrixXd matrix = -(roots.asDiagonal() * half_(softer, Eigen::all));
+  softer_.clear(), others_.clear();
+  for (Eigen::Index k = 0; k < missing.size(); ++k)
+    (missing[k] > 0.0 ? softer_ : others_).push_back(k);
+  roots_ = missing(softer_).cwiseSqrt();
+  to_others_ = compliance(others_, softer_) * roots_.asDiagonal();
+  Eigen::MatrixXd matrix =
+      -(roots_.asDiagonal() * compliance(softer_, softer_) * roots_.asDiagonal());
   matrix.diagonal().array() += 1.0;
-  DenseFactor factor;
-  if (!factor.compute(std::move(matrix))) return false;
-  factor.solve_rows(half_);
+  if (!factor_.compute(std::move(matrix))) return false;
   missing_ = missing;
   return true;
 }
 
-Eigen::VectorXd ReferenceFaces::moved(const Eigen::MatrixXd& compliance,
-                                      const Eigen::VectorXd& gaps) const {
-  const Eigen::VectorXd forces = missing_.cwiseProduct(gaps);
-  return gaps + compliance * forces + half_ * (half_.transpose() * forces);
+Eigen::VectorXd ReferenceFaces::moved(Eigen::VectorXd gaps) const {
+  Eigen::VectorXd scaled = roots_.cwiseProduct(gaps(softer_));
+  factor_.solve(scaled);
+  gaps(softer_) = scaled.cwiseQuotient(roots_);
+  gaps(others_) += to_others_ * scaled;
+  return gaps;
 }
 
 std::vector<Eigen::Index> ReferenceFaces::need(const Eigen::MatrixXd& compliance,
@@ -45,10 +43,13 @@ std::vector<Eigen::Index> ReferenceFaces::need(const Eigen::MatrixXd& compliance
     const auto count = Eigen::Index(absent.size());
     if (columns_.rows() != compliance.rows() || columns_.cols() < used_ + count)
       columns_.conservativeResize(compliance.rows(), used_ + count + room);
+    Eigen::MatrixXd scaled = roots_.asDiagonal() * compliance(softer_, absent);
+    factor_.solve_columns(scaled);
+    Eigen::MatrixXd at_others = compliance(others_, absent);
+    add_product(1.0, to_others_, scaled, Transposed::neither, at_others);
     auto fresh = columns_.middleCols(used_, count);
-    fresh = compliance(Eigen::all, absent);
-    const Eigen::MatrixXd rows = half_(absent, Eigen::all);
-    add_product(1.0, half_, rows, Transposed::second, fresh);
+    fresh(softer_, Eigen::all) = roots_.cwiseInverse().asDiagonal() * scaled;
+    fresh(others_, Eigen::all) = at_others;
     for (const Eigen::Index k : absent) at_[std::size_t(k)] = used_++;
   }
   for (const Eigen::Index k : places) found.push_back(at_[std::size_t(k)]);
