@@ -15,8 +15,8 @@ namespace cdca {
 namespace {
 
 constexpr double tiny = std::numeric_limits<double>::min();
-constexpr int most_turns = 400;     ///< of one balance
-constexpr int most_of_limits = 20;  ///< that limits of friction take in turns with faces
+constexpr int most_turns = 1000;    ///< of one balance
+constexpr int most_of_limits = 40;  ///< that limits of friction take in turns with faces
 constexpr int most_together = 40;   ///< turns in which limits go along
 constexpr int most_no_nearer = 15;  ///< of these: those that come no nearer
 constexpr int most_stuck = 5;       ///< turns that lead nowhere
@@ -274,6 +274,12 @@ void CondensedTurns::start() {
 bool CondensedTurns::settle() {
   start();
   if (rule_.limits_stay) return settle_at_limits();
+  // there may be several balances with friction: first one where hardly more slips than has to
+  const Eigen::VectorXd first_gaps = gaps_, first_tractions = tractions_;
+  base_.resize(0);
+  if (settle_with_pressures()) return true;
+  gaps_ = first_gaps;
+  tractions_ = first_tractions;
   FixedPointMixing turns(5);
   for (int k = 0; k < most_of_limits && turns_ < most_turns; ++k) {
     if (!settle_at_limits()) return false;

@@ -16,9 +16,6 @@ namespace cdca {
 namespace {
 
 constexpr int most_creeping = 600;  ///< turns of creep
-/// With friction most steps of all faces that are stuck more often are stuck for good. Creep is as
-/// cheap with a condensed body, and comes through.
-constexpr int few_restarts = 2;
 
 void set_held(Model& model, const std::vector<double>& held) {
   std::vector<double>& state = model.state();
@@ -91,7 +88,9 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     }
     FaceBalance::Rule rule{enough};
     if (jams == 1) rule.near = FaceTurns::nearly;
-    if (jams == 1 && model.condenses()) rule.most_restarts = few_restarts;
+    // where these fail on the condensed body, bodies have mostly come loose, and creep comes
+    // through
+    rule.turns_alone = jams == 1 && model.condenses();
     const auto balance = FaceBalance(model, solves, given, rule).find();
     turns.add_to_count(balance.steps);
     note(balance.unbalanced);

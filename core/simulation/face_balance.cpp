@@ -13,6 +13,7 @@ namespace cdca {
 namespace {
 
 constexpr int most_steps = 150;
+constexpr int most_restarts = 100;  ///< of steps that are stuck
 /// With the condensed body, where tractions are balanced well enough: they cost little, and what is
 /// out of balance counts as lost in energies.
 constexpr int more_steps = 2;
@@ -22,6 +23,9 @@ constexpr int most_rounds = 4;
 constexpr double pulled_at_most = 1e-2;
 constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  ///< limits of friction and pressures
 constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
+/// Of a solve's tolerance: it ends where rounding ends it. A solve that begins far away leaves more
+/// in the gaps of stiff faces than its residual tells.
+constexpr double to_rounding = 1e-12;
 
 }  // namespace
 
@@ -136,6 +140,12 @@ std::vector<FaceTraction> FaceBalance::move_to(const std::vector<ContactGap>& ga
   return held_.at(solves_.gaps(), tractions, gaps);
 }
 
+std::vector<FaceTraction> FaceBalance::move_closer_to(const std::vector<ContactGap>& gaps,
+                                                      const std::vector<FaceTraction>& tractions) {
+  solves_.once({to_rounding});
+  return held_.at(solves_.gaps(), tractions, gaps);
+}
+
 bool FaceBalance::turn_condensed(FacesOfBody& condensed, std::vector<ContactGap> closed_gaps,
                                  std::vector<ContactGap> from) {
   constexpr int most = 4;
@@ -149,6 +159,7 @@ bool FaceBalance::turn_condensed(FacesOfBody& condensed, std::vector<ContactGap>
     const auto tractions = move_to(balance.gaps, balance.tractions);
     left_ = solves_.slowest().residual;
     judge(tractions);
+    if (!now_.found && !anchored_anew_) judge(move_closer_to(balance.gaps, balance.tractions));
     if (now_.found || anchored_anew_) return true;
     // the whole body tells its gaps better than the condensed one where bodies are nearly loose
     from = solves_.gaps();
@@ -188,7 +199,7 @@ void FaceBalance::step_whole() {
 
 bool FaceBalance::is_of_use_to_go_on(double least) {
   if (!faces_.began_anew()) return true;
-  return ++restarts_ <= rule_.most_restarts && least > rule_.near;
+  return ++restarts_ <= most_restarts && least > rule_.near;
 }
 
 void FaceBalance::judge(const std::vector<FaceTraction>& tractions) {

@@ -22,7 +22,6 @@ class FaceBalance {
     /// As of FaceTurns: with drag, given.anchor stays what it is.
     double drag = 0.0;
     bool limits_stay = false;  ///< of friction; otherwise they follow the pressures
-    int most_restarts = 100;   ///< of steps that are stuck
     bool turns_alone = false;  ///< of faces on the condensed body, and no other steps
   };
   FaceBalance(Model& model, ContactSolves& solves, Forces& given, const Rule& rule);
@@ -51,6 +50,9 @@ class FaceBalance {
   /// with it. Returns what they exert then.
   std::vector<FaceTraction> move_to(const std::vector<ContactGap>& gaps,
                                     const std::vector<FaceTraction>& tractions);
+  /// The same once more from there, without what rounding has left of the way.
+  std::vector<FaceTraction> move_closer_to(const std::vector<ContactGap>& gaps,
+                                           const std::vector<FaceTraction>& tractions);
   /// Whether the state at hand is the one that is looked for. tractions: of its faces.
   void judge(const std::vector<FaceTraction>& tractions);
   double off() const { return std::max(now_.unbalanced, left_); }

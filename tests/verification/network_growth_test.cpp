@@ -267,7 +267,7 @@ TEST(Creep, BeginsWhereTheHistoryOfFacesEnds) {
     model->remember(memory);
     model->set_origin(state);
     model->renew_stiffness();
-    const Equilibrium back = find_equilibrium(*model, Fails(*solver, 1, 3), 0.2);
+    const Equilibrium back = find_equilibrium(*model, Fails(*solver, 1, 2), 0.2);
     const double rubbed = model->accept_contact(Model::Since::other_cracks);
     EXPECT_LE(std::abs(rubbed), 1e-8 * back.strain_energy) << "seed " << seed;
   }
@@ -284,7 +284,7 @@ TEST(Creep, LeavesNoMoreToFrictionThanLoadsHaveDone) {
     EnergyLedger energy;
     energy.new_loads(*model, find_equilibrium(*model, *solver, 0.2));
     energy.add_friction(model->accept_contact());
-    const Equilibrium crept = find_equilibrium(*model, Fails(*solver, 1, 3), 0.6);
+    const Equilibrium crept = find_equilibrium(*model, Fails(*solver, 1, 2), 0.6);
     ASSERT_TRUE(crept.before_creep.has_value()) << "seed " << seed;
     energy.new_loads(*model, crept);
     energy.add_friction(model->accept_contact());
