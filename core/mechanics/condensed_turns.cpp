@@ -276,7 +276,6 @@ bool CondensedTurns::settle() {
   if (rule_.limits_stay) return settle_at_limits();
   // there may be several balances with friction: first one where hardly more slips than has to
   const Eigen::VectorXd first_gaps = gaps_, first_tractions = tractions_;
-  base_.resize(0);
   if (settle_with_pressures()) return true;
   gaps_ = first_gaps;
   tractions_ = first_tractions;
