@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace cdca {
 
@@ -128,22 +129,38 @@ class TipIntegral {
   const ExternalLoads& loads_;
 };
 
-/// The group of patches at a tip, when the faces touch at the tip.
-const ContactGroup* touching_group(const ExternalLoads& loads, const std::vector<Crack>& cracks,
-                                   const TipZone& zone) {
-  if (!loads.contact) return nullptr;
+/// The faces behind a tip: those of its group of patches between the bodies that end at the tip.
+/// Beyond a fragment the gap tells where that has gone, and nothing about the tip.
+struct FacesAtTip {
+  double length = 0.0;  ///< m
+  double closed = 0.0;  ///< m of it
+  double gap = 0.0;     ///< mean, m
+};
+
+/// Where the faces touch at the tip.
+std::optional<FacesAtTip> touching_faces(const ExternalLoads& loads,
+                                         const std::vector<Crack>& cracks, const TipZone& zone) {
+  if (!loads.contact) return std::nullopt;
   const Crack& crack = cracks[std::size_t(zone.crack)];
   const int segment = zone.end == 0 ? 0 : int(crack.segments()) - 1;
-  const ContactPatch* patch = loads.contact->find(zone.crack, segment, crack.end_point(zone.end));
-  if (!patch) return nullptr;
-  const ContactGroup& group = loads.contact->group_of(*patch);
-  return group.closed > 0.5 * group.length ? &group : nullptr;
+  const ContactPatch* tip = loads.contact->find(zone.crack, segment, crack.end_point(zone.end));
+  if (!tip) return std::nullopt;
+  FacesAtTip faces;
+  for (const ContactPatch& patch : loads.contact->patches()) {
+    if (patch.group != tip->group || patch.bodies != tip->bodies) continue;
+    faces.length += patch.length;
+    if (patch.now.state != ContactState::open) faces.closed += patch.length;
+    faces.gap += patch.length * patch.gap.normal;
+  }
+  if (faces.closed <= 0.5 * faces.length) return std::nullopt;
+  faces.gap /= faces.length;
+  return faces;
 }
 
 /// K_I that opens the faces at the tip by their mean gap: g(r) = 8 K_I / E' sqrt(r / 2 pi).
-double fitted_opening(const ContactGroup& group, const Material& material) {
-  return 3.0 / 16 * group.gap * material.fracture_modulus() *
-         std::sqrt(2 * std::numbers::pi / group.length);
+double fitted_opening(const FacesAtTip& faces, const Material& material) {
+  return 3.0 / 16 * faces.gap * material.fracture_modulus() *
+         std::sqrt(2 * std::numbers::pi / faces.length);
 }
 
 }  // namespace
@@ -171,8 +188,8 @@ std::vector<StressIntensity> stress_intensities(
   for (std::size_t z = 0; z < found.size(); ++z) {
     found[z].k1 = 0.5 * material.fracture_modulus() * sums[2 * z];
     found[z].k2 = 0.5 * material.fracture_modulus() * sums[2 * z + 1];
-    if (const ContactGroup* group = touching_group(loads, cracks, *zones[z])) {
-      found[z].k1 = fitted_opening(*group, material);
+    if (const auto faces = touching_faces(loads, cracks, *zones[z])) {
+      found[z].k1 = fitted_opening(*faces, material);
       found[z].k1_fitted = true;
     }
   }

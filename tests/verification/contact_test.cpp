@@ -174,5 +174,32 @@ TEST_P(SlidingBlock, SticksSlipsAndTurnsRound) {
 
 INSTANTIATE_TEST_SUITE_P(Heights, SlidingBlock, ::testing::Values(1.0, 1.04));
 
+/// A fragment behind a tip whose faces touch may be anywhere: its gap says nothing of the tip.
+TEST(TouchingTip, IsNotOpenedByFragmentsBehindIt) {
+  const Solved s = solved(pressed(13, {{{0.2, 0.45}, {0.62, 0.55}}}, coulomb(4e4, 2e4, 0.6)));
+  const auto at_right_tip = [&] {
+    for (const StressIntensity& k : s.model->stress_intensities(1.0)) {
+      if (k.end == 1) return k;
+    }
+    return StressIntensity{};
+  };
+  const StressIntensity closed = at_right_tip();
+  ASSERT_TRUE(closed.k1_fitted);
+  auto& patches = s.model->contact().patches();
+  const std::size_t group = s.model->contact().find(0, 0, {0.62, 0.55})->group;
+  cdca::ContactPatch* farthest = nullptr;
+  for (auto& p : patches) {
+    if (p.group == group && (!farthest || p.from < farthest->from)) farthest = &p;
+  }
+  const double toughness_like = 1e-2;  // far above the K_I of any closed tip here
+  farthest->gap.normal = 0.1;
+  const double opened = at_right_tip().k1;
+  EXPECT_GT(opened, toughness_like) << "the same body: the gap counts";
+  farthest->bodies[0] += 1;
+  const StressIntensity behind = at_right_tip();
+  EXPECT_TRUE(behind.k1_fitted);
+  EXPECT_LT(std::abs(behind.k1), 1e-3 * toughness_like + 2 * std::abs(closed.k1));
+}
+
 }  // namespace
 }  // namespace cdca::testing
