@@ -46,7 +46,8 @@ using TipChoice = std::function<bool(int crack, int end)>;
 /// with bends, other cracks and rims inside the domain.
 ///
 /// Where faces touch at the tip itself, their normal traction there is known to some percent only,
-/// and the integral weighs it with 1 / sqrt(r): K_I is fitted to the gap instead, and is all but 0.
+/// and the integral weighs it with 1 / sqrt(r): K_I is fitted to the gap instead, and is all but 0:
+/// to that of the faces between the bodies that end at the tip, at most two elements.
 /// state: with ghosts. cache: of the same body, material and grid; what the displacements count for
 /// is found there where cracks and tips are as before.
 std::vector<StressIntensity> stress_intensities(

@@ -67,9 +67,7 @@ double ContactSolves::rounding(double largest) const {
     stiffest = std::max(stiffest, model_.contact().law_of(p).normal_stiffness);
   for (const double u : model_.state()) farthest = std::max(farthest, std::abs(u));
   farthest = model_.communicator().max(farthest);
-  // in the last place, that gaps may be off: they are means over unknowns of several cells, of
-  // which near-tip functions cancel each other; solves of the same forces differ by up to 90
-  constexpr double units = 128;
+  constexpr double units = 8;  // in the last place, that gaps may be off
   const double off = units * std::numeric_limits<double>::epsilon() * farthest * stiffest;
   return std::min(worst_balance, off / largest);
 }

@@ -6,6 +6,7 @@
 #include "core/mechanics/condensed_turns.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cdca {
@@ -26,6 +27,15 @@ constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
 /// Of a solve's tolerance: it ends where rounding ends it. A solve that begins far away leaves more
 /// in the gaps of stiff faces than its residual tells.
 constexpr double to_rounding = 1e-12;
+
+double greatest_difference(const std::vector<FaceTraction>& a, const std::vector<FaceTraction>& b) {
+  double greatest = 0.0;
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    greatest = std::max({greatest, std::abs(a[p].normal - b[p].normal),
+                         std::abs(a[p].tangential - b[p].tangential)});
+  }
+  return greatest;
+}
 
 }  // namespace
 
@@ -159,7 +169,11 @@ bool FaceBalance::turn_condensed(FacesOfBody& condensed, std::vector<ContactGap>
     const auto tractions = move_to(balance.gaps, balance.tractions);
     left_ = solves_.slowest().residual;
     judge(tractions);
-    if (!now_.found && !anchored_anew_) judge(move_closer_to(balance.gaps, balance.tractions));
+    if (!now_.found && !anchored_anew_) {
+      const auto again = move_closer_to(balance.gaps, balance.tractions);
+      noise_ = std::max(noise_, greatest_difference(tractions, again));
+      judge(again);
+    }
     if (now_.found || anchored_anew_) return true;
     // the whole body tells its gaps better than the condensed one where bodies are nearly loose
     from = solves_.gaps();
@@ -211,7 +225,9 @@ void FaceBalance::judge(const std::vector<FaceTraction>& tractions) {
   }
   double largest = 0.0;
   for (const FaceTraction& t : tractions) largest = std::max(largest, -t.normal);
-  const double told_apart = std::max(rule_.enough, solves_.rounding(largest));
+  const double rounding =
+      largest > 0.0 ? std::min(ContactSolves::worst_balance, noise_ / largest) : 0.0;
+  const double told_apart = std::max({rule_.enough, solves_.rounding(largest), rounding});
   now_.found = off() <= told_apart;
   if (drags()) return;
   std::vector<double> move = state;

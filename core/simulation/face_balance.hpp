@@ -72,7 +72,8 @@ class FaceBalance {
   HeldFaces held_;
   FaceBarrier faces_;
   Found now_;
-  double left_ = 1.0;  ///< of the forces that are out of balance: steps do not go all the way
+  double noise_ = 0.0;  ///< by which tractions of two solves of the same forces have differed, Pa
+  double left_ = 1.0;   ///< of the forces that are out of balance: steps do not go all the way
   double least_ = 1.0;
   int restarts_ = 0;
   bool gave_up_ = false;

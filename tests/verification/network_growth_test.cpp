@@ -268,6 +268,7 @@ TEST(Creep, BeginsWhereTheHistoryOfFacesEnds) {
     model->set_origin(state);
     model->renew_stiffness();
     const Equilibrium back = find_equilibrium(*model, Fails(*solver, 1, 2), 0.2);
+    ASSERT_TRUE(back.before_creep.has_value()) << "seed " << seed;
     const double rubbed = model->accept_contact(Model::Since::other_cracks);
     EXPECT_LE(std::abs(rubbed), 1e-8 * back.strain_energy) << "seed " << seed;
   }
