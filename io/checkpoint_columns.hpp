@@ -139,9 +139,13 @@ inline constexpr auto crack_columns = [](auto&& visit) {
   visit(
       "start_partner", "", [](auto& r) -> auto& { return r.ends[0].partner; });
   visit(
+      "start_tip_was", "", [](auto& r) -> auto& { return r.ends[0].tip_was; });
+  visit(
       "end_state", "", [](auto& r) -> auto& { return r.ends[1].state; });
   visit(
       "end_partner", "", [](auto& r) -> auto& { return r.ends[1].partner; });
+  visit(
+      "end_tip_was", "", [](auto& r) -> auto& { return r.ends[1].tip_was; });
 };
 struct PointRow {
   int crack = 0;

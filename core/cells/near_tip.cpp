@@ -11,6 +11,9 @@ namespace cdca {
 namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double largest_bend = 110.0 / 180.0 * pi;
+/// rad from the crack's prolongation: farther round, a place is on or close to a face of the crack,
+/// and no other crack that starts from the tip comes so far.
+constexpr double at_face = 135.0 / 180.0 * pi;
 constexpr double straight_on = 1e-9;  ///< rad: bends less than this do not show
 }  // namespace
 
@@ -89,8 +92,8 @@ double TipFrame::angle_from_crack(const Vec2& local, const Bend& bend, FaceSide 
   if (g > pi) g -= 2 * pi;
   if (g < -pi) g += 2 * pi;
   // seen from the other face the angle goes on beyond +-pi instead of jumping
-  if (side == FaceSide::plus && g < -pi / 2) g += 2 * pi;
-  if (side == FaceSide::minus && g > pi / 2) g -= 2 * pi;
+  if (side == FaceSide::plus && g < -at_face) g += 2 * pi;
+  if (side == FaceSide::minus && g > at_face) g -= 2 * pi;
   return g;
 }
 

@@ -84,8 +84,10 @@ void insert_nodes(const StructuredGrid& grid, const Vec2& at, const Vec2& box, d
 /// Marks what can be reached from (element, part) over open stretches of sides.
 void flood(const ElementCuts& cuts, GridIndex start, int part, TipZone& zone) {
   const StructuredGrid& grid = cuts.grid();
+  const auto first = zone.parts.find(grid.element(start));
+  if (first == zone.parts.end() || first->second[std::size_t(part)]) return;
+  first->second[std::size_t(part)] = true;
   std::deque<std::pair<GridIndex, int>> open{{start, part}};
-  zone.parts.at(grid.element(start))[std::size_t(part)] = true;
   while (!open.empty()) {
     const auto [e, p] = open.front();
     open.pop_front();
@@ -101,6 +103,25 @@ void flood(const ElementCuts& cuts, GridIndex start, int part, TipZone& zone) {
       }
     }
   }
+}
+
+/// Where to start from the tip: elements and parts of them.
+std::vector<std::pair<GridIndex, int>> parts_at_tip(const ElementCuts& cuts, const PathTip& tip,
+                                                    const TipFrame& frame) {
+  const StructuredGrid& grid = cuts.grid();
+  std::vector<std::pair<GridIndex, int>> found;
+  if (tip.is_active) {
+    // just ahead of the tip is uncracked material, whatever meets behind it
+    const Vec2 along = frame.tangent().cwiseQuotient(grid.element_size()).normalized();
+    const Vec2 ahead = tip.at + 1e-4 * along;
+    const GridIndex start = grid.element_at(ahead);
+    found.emplace_back(start, cuts.part_at(start, ahead));
+    return found;
+  }
+  for (const GridIndex e : elements_holding(grid, tip.at)) {
+    for (const int part : cuts.parts_at(e, tip.at)) found.emplace_back(e, part);
+  }
+  return found;
 }
 
 /// Beyond the end of the crack that the frame follows the functions go on to jump along a ray. Does
@@ -180,7 +201,9 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
   TipZone zone;
   zone.crack = tip.crack;
   zone.end = tip.end;
-  std::vector<Vec2> path = crack.seen_from(tip.end);
+  zone.is_active = tip.is_active;
+  const int past = *crack.ends[std::size_t(tip.end)].points_past_tip();
+  std::vector<Vec2> path = crack.seen_from(tip.end, past);
   path.front() = grid.from_grid(tip.at);
   const TipState far = crack.ends[std::size_t(1 - tip.end)].state;
   zone.frame = TipFrame(std::move(path), far == TipState::active);
@@ -205,10 +228,8 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
       if (grid.has_element(e)) zone.parts.try_emplace(grid.element(e), cuts.parts(e), false);
     }
   }
-  // just ahead of the tip is uncracked material, whatever meets behind it
-  const Vec2 ahead = tip.at + 1e-4 * zone.frame.tangent().cwiseQuotient(h).normalized();
-  const GridIndex start = grid.element_at(ahead);
-  if (zone.parts.count(grid.element(start))) flood(cuts, start, cuts.part_at(start, ahead), zone);
+  for (const auto& [start, part] : parts_at_tip(cuts, tip, zone.frame))
+    flood(cuts, start, part, zone);
   for (const GlobalId n : nodes) {
     const double share = reached_share(cuts, zone, grid.node_index(n));
     if (full.count(n) && share > 0.0) zone.nodes.insert(n);
@@ -224,6 +245,7 @@ void leave_crowded_cells(const StructuredGrid& grid, std::vector<TipZone>& zones
   };
   std::unordered_map<GlobalId, std::vector<double>> wanted;
   for (const TipZone& zone : zones) {
+    if (!zone.is_active) continue;
     for (const GlobalId n : zone.nodes) wanted[n].push_back(distance(zone, n));
     for (const GlobalId n : zone.with_modes) wanted[n].push_back(distance(zone, n));
   }

@@ -12,11 +12,13 @@
 
 namespace cdca {
 
-/// One active tip, its frame, its cells, and the parts of elements on which its functions act:
-/// those that can be reached from the tip without crossing any crack.
+/// One tip, its frame, its cells, and the parts of elements on which its functions act: those that
+/// can be reached from the tip without crossing any crack.
 struct TipZone {
   int crack = 0;
   int end = 0;
+  /// Growth has not joined it yet: it has K.
+  bool is_active = true;
   TipFrame frame;
   std::unordered_set<GlobalId> nodes;
   /// Those of them whose near-tip functions stand in the proportions of modes I and II.
@@ -45,7 +47,12 @@ struct ZoneRule {
   int most_tips = 2;
 };
 
-/// The zones of all active tips, the same on every rank: in order of crack and end.
+/// The zones of all tips, the same on every rank: in order of crack and end.
+///
+/// A tip that growth has joined leaves its functions behind: they go on to act on all that can be
+/// reached from where it was, on either side of the new crack. Without them the space would lose
+/// more than the new crack gives to it, and a join would give back energy where it lies in a narrow
+/// neck.
 ///
 /// Cells: the corners of every element that holds the tip (also on its rim), all nodes within the
 /// radius, and with little room those in reach of which at least half of the support can be reached

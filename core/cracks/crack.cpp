@@ -15,6 +15,11 @@ const char* name_of(TipState state) {
   return "?";
 }
 
+std::optional<int> CrackEnd::points_past_tip() const {
+  if (state == TipState::active) return 0;
+  return tip_was < 0 ? std::nullopt : std::optional<int>(tip_was);
+}
+
 double Crack::length() const {
   double sum = 0.0;
   for (std::size_t k = 0; k < segments(); ++k) sum += (points[k + 1] - points[k]).norm();
@@ -26,9 +31,10 @@ Vec2 Crack::end_tangent(int end) const {
   return (end == 0 ? points[0] - points[1] : points[n - 1] - points[n - 2]).normalized();
 }
 
-std::vector<Vec2> Crack::seen_from(int end) const {
+std::vector<Vec2> Crack::seen_from(int end, int points_back) const {
   std::vector<Vec2> path = points;
   if (end == 1) std::reverse(path.begin(), path.end());
+  path.erase(path.begin(), path.begin() + points_back);
   return path;
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/types.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ const char* name_of(TipState state);
 struct CrackEnd {
   TipState state = TipState::active;
   int partner = -1;  ///< number of the crack that was met, or -1
+  /// For an end that growth has joined: how many points back from it the tip was then. -1 for ends
+  /// that have never been a tip.
+  int tip_was = -1;
+
+  /// How many points back from the end the tip is, or was; none if it never was one.
+  std::optional<int> points_past_tip() const;
 };
 
 struct Crack {
@@ -37,8 +44,9 @@ struct Crack {
   const Vec2& end_point(int end) const { return end == 0 ? points.front() : points.back(); }
   /// Unit vector out of the crack at its end.
   Vec2 end_tangent(int end) const;
-  /// The polyline seen from an end: its position first, then backwards along the crack.
-  std::vector<Vec2> seen_from(int end) const;
+  /// The polyline seen from an end, or from a point so many points back from it: its position
+  /// first, then backwards along the crack.
+  std::vector<Vec2> seen_from(int end, int points_back = 0) const;
 };
 
 /// The point of segment [a, b] nearest to x, as a fraction of the segment.

@@ -133,8 +133,11 @@ CrackPaths::CrackPaths(const StructuredGrid& grid, const std::vector<Crack>& cra
         chains.push_back({int(c), int(k), points[k], points[k + 1], {}});
     }
     for (int end = 0; end < 2; ++end) {
-      if (cracks[c].ends[std::size_t(end)].state != TipState::active) continue;
-      tips_.push_back({int(c), end, end == 0 ? points.front() : points.back()});
+      const CrackEnd& there = cracks[c].ends[std::size_t(end)];
+      const auto past = there.points_past_tip();
+      if (!past) continue;
+      const auto at = end == 0 ? std::size_t(*past) : points.size() - 1 - std::size_t(*past);
+      tips_.push_back({int(c), end, points[at], there.state == TipState::active});
     }
   }
   find_meetings(chains, pool);

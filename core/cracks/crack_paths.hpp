@@ -19,11 +19,12 @@ struct PathStep {
   Vec2 along{0, 0};  ///< the whole segment: the direction of a short bit is not exact
 };
 
-/// An active tip, in grid coordinates.
+/// A tip, or the place where one was before growth joined it, in grid coordinates.
 struct PathTip {
   int crack = 0;
   int end = 0;
   Vec2 at{0, 0};
+  bool is_active = true;
 };
 
 /// All cracks laid over the grid.

@@ -40,8 +40,9 @@ void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int 
                             int cycle) {
   Crack& crack = cracks_[std::size_t(c)];
   const bool at_start = end == 0;
-  crack.ends[std::size_t(end)] = {state, partner};
-  if (to != crack.end_point(end)) {
+  const bool grows = to != crack.end_point(end), was_tip = state != TipState::active && step > 0;
+  crack.ends[std::size_t(end)] = {state, partner, was_tip ? int(grows) : -1};
+  if (grows) {
     crack.points.insert(at_start ? crack.points.begin() : crack.points.end(), to);
     crack.age.insert(at_start ? crack.age.begin() : crack.age.end(), step);
   }
@@ -59,7 +60,7 @@ void CrackRegistry::place_end(int c, int end, const Vec2& at) {
 
 void CrackRegistry::join_end(int crack, int end, int partner) {
   CrackEnd& met = cracks_[std::size_t(crack)].ends[std::size_t(end)];
-  if (met.state == TipState::active) met = {TipState::connected, partner};
+  if (met.state == TipState::active) met = {TipState::connected, partner, 0};
 }
 
 int CrackRegistry::active_tips() const {
@@ -88,6 +89,7 @@ std::uint64_t CrackRegistry::hash() const {
     for (const CrackEnd& end : crack.ends) {
       mix(&end.state, sizeof end.state);
       mix(&end.partner, sizeof end.partner);
+      mix(&end.tip_was, sizeof end.tip_was);
     }
   }
   return h;

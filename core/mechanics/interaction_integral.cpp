@@ -175,7 +175,7 @@ std::vector<StressIntensity> stress_intensities(
   std::vector<StressIntensity> found;
   std::vector<const TipZone*> zones;
   for (const TipZone& zone : context.zones) {
-    if (wanted && !wanted(zone.crack, zone.end)) continue;
+    if (!zone.is_active || (wanted && !wanted(zone.crack, zone.end))) continue;
     zones.push_back(&zone);
     sums.resize(2 * zones.size(), 0.0);
     const double room = free_radius(grid, cracks, zone);

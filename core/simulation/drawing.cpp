@@ -85,6 +85,7 @@ class FieldDrawer {
 
   bool holds_tip(GridIndex e) const {
     for (const PathTip& tip : model_.cuts().paths().tips()) {
+      if (!tip.is_active) continue;
       const Vec2 d = tip.at - Vec2(e.i, e.j);
       if (d.x() >= 0 && d.x() <= 1 && d.y() >= 0 && d.y() <= 1) return true;
     }

@@ -273,6 +273,22 @@ TEST(CrackRegistryTest, EndThatWasMetIsATipNoMore) {
   EXPECT_EQ(end_of(registry, 1, 1).state, TipState::boundary) << "had ended before";
 }
 
+TEST(CrackRegistryTest, EndsThatGrowthHasJoinedKnowWhereTheTipWas) {
+  CrackRegistry registry = resolved({{{2, 2}, {4, 2}}, {{6, 2}, {6, 4}}, {{0, 6}, {3, 6}}});
+  EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 0);
+  EXPECT_FALSE(end_of(registry, 2, 0).points_past_tip()) << "it has never been a tip";
+  registry.advance(0, 1, Vec2(5, 2), TipState::active, -1, 1, 0);
+  EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 0);
+  registry.advance(0, 1, Vec2(6, 2), TipState::connected, 1, 2, 0);
+  registry.join_end(1, 0, 0);
+  EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 1);
+  EXPECT_EQ(end_of(registry, 1, 0).points_past_tip(), 0);
+  EXPECT_EQ(registry.cracks()[0].seen_from(1, 1).front(), Vec2(5, 2));
+  // where the end is moved instead, the tip has been there
+  registry.advance(2, 1, Vec2(3, 6), TipState::coalesced, 1, 2, 0);
+  EXPECT_EQ(end_of(registry, 2, 1).points_past_tip(), 0);
+}
+
 TEST(CrackTest, IsSeenFromBothEnds) {
   Crack crack;
   crack.points = {{0, 0}, {2, 0}, {2, 3}};

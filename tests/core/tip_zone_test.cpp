@@ -93,6 +93,32 @@ TEST(TipZoneTest, CellsTakeTheModesOfTheNearestTipsWhereTheyCrowd) {
   EXPECT_EQ(three.at(2).with_modes, two.at(2).with_modes);
 }
 
+/// A tip that has grown into another crack goes on to serve its cells, on either side of the step.
+TEST(TipZoneTest, ATipThatHasJoinedLeavesItsFunctionsBehind) {
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  CrackRegistry registry;
+  registry.add("", {{4.1, 14.6}, {14.4, 14.6}});
+  registry.add("", {{17.2, 5.3}, {17.2, 25.1}});
+  const auto zones_now = [&] {
+    const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
+    return find_tip_zones(cuts, registry.cracks(), {0.0, 2.0});
+  };
+  const TipZone before = zones_now().at(1);
+  registry.advance(0, 1, Vec2(17.2, 13.1), TipState::coalesced, 1, 1, 0);
+  const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
+  const TipZone after = zones_now().at(1);
+  EXPECT_TRUE(before.is_active);
+  EXPECT_FALSE(after.is_active);
+  EXPECT_EQ(after.nodes, before.nodes);
+  EXPECT_EQ(after.with_modes, before.with_modes);
+  EXPECT_EQ(after.frame.path(), before.frame.path());
+  // the step cuts this element into two
+  const GridIndex ahead{15, 14};
+  ASSERT_EQ(cuts.parts(ahead), 2);
+  EXPECT_TRUE(after.acts_on(grid.element(ahead), 0));
+  EXPECT_TRUE(after.acts_on(grid.element(ahead), 1));
+}
+
 /// Lest the mirrored problem had another answer.
 TEST(TipZoneTest, CellsTakeTheModesOfAllTipsThatAreJustAsNear) {
   const auto star = zones_of(

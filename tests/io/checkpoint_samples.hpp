@@ -45,7 +45,7 @@ inline Checkpoint sample_checkpoint() {
   bent.name = "Riß, der erste";
   bent.points = {{0.1, 0.2}, {0.3, 0.4 + 1e-17}, {1.0 / 3.0, 0.6}};
   bent.age = {0, 2};
-  bent.ends = {CrackEnd{TipState::boundary, -1}, CrackEnd{TipState::coalesced, 1}};
+  bent.ends = {CrackEnd{TipState::boundary, -1}, CrackEnd{TipState::coalesced, 1, 1}};
   Crack other;
   other.name = "b";
   other.points = {{-0.1, 1e-9}, {0.5, 0.5}};

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace cdca::testing {
 namespace {
@@ -150,6 +151,25 @@ TEST(Joining, HeadOnTipsMeetMidway) {
     EXPECT_EQ(j.ends_in(TipState::connected), 2) << offset;
     EXPECT_LT((j.registry().cracks()[0].points.back() - Vec2(9.9, 8.1 + offset / 2)).norm(), 1e-5);
     expect_sound(j);
+  }
+}
+
+/// Cells keep the functions of a tip that has joined another crack: at the same displacements of
+/// the supports the body stores no more than before, also where it hangs on a neck that is as wide
+/// as the elements.
+TEST(Joining, GivesNoEnergyBack) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 60; ++k) {
+    // two notches that leave a neck, and a crack in it that comes to the first one
+    const double height = 7.5 + share(engine), end = 8 + 2 * share(engine);
+    const Vec2 notch(end, height), other(end + 0.3 + share(engine), height + 0.5 + share(engine));
+    const Vec2 tip(end - 0.3 + 0.6 * share(engine), height + 0.1 + 0.3 * share(engine));
+    const Vec2 tail = tip + polar(20 + 140 * share(engine), 1.2);
+    const Polylines cracks{{{0, height}, notch}, {{20, other.y()}, other}, {tail, tip}};
+    const Joined before(cracks, {}), after(cracks, {{2, 1, Vec2(0.0, -0.5)}});
+    EXPECT_NE(after.registry().cracks()[2].ends[1].state, TipState::active);
+    EXPECT_LT(after.equilibrium.strain_energy, before.equilibrium.strain_energy) << "case " << k;
   }
 }
 
