@@ -29,10 +29,7 @@ bool CoarsestFactor::factorize(const ValueOf& value_of) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   for (std::size_t k = 0; k < at_.size(); ++k) values[at_[k]] += value_of(k);
-  if (!factor_.factorize(matrix_)) return false;
-  entries_now_ = factor_.entries();
-  if (entries_of_order_ == 0) entries_of_order_ = entries_now_;
-  return true;
+  return factor_.factorize(matrix_);
 }
 
 void CoarsestFactor::solve(Eigen::VectorXd& values) const {
@@ -58,11 +55,21 @@ bool CoarsestFactor::same_places(std::size_t size, const StiffnessEntries& entri
 }
 
 void CoarsestFactor::lay_places(std::size_t size, const StiffnessEntries& entries) {
-  if (place_.size() != Eigen::Index(size) ||
-      double(entries_now_) > outgrown * double(entries_of_order_)) {
+  const auto order_anew = [&] {
     place_ = elimination_order(size, entries);
-    entries_of_order_ = 0;
+    lay_fronts(entries);
+    entries_of_order_ = factor_.entries();
+  };
+  if (place_.size() != Eigen::Index(size)) {
+    order_anew();
+    return;
   }
+  // as many unknowns as before need not be the same ones
+  lay_fronts(entries);
+  if (double(factor_.entries()) > outgrown * double(entries_of_order_)) order_anew();
+}
+
+void CoarsestFactor::lay_fronts(const StiffnessEntries& entries) {
   matrix_ = in_order(place_, entries, false);
   matrix_.makeCompressed();
   places_.clear();

@@ -19,6 +19,8 @@ class CoarsestFactor {
   bool compute(std::size_t size, const StiffnessEntries& entries);
   /// The same entries with other values.
   bool compute_again(std::span<const double> values);
+  /// Entries of L that are kept.
+  Eigen::Index entries() const { return factor_.entries(); }
   /// values = K^-1 values, by unknown.
   void solve(Eigen::VectorXd& values) const;
   /// R K^-1 R^T. directions: entries of R: number of a direction, unknown, value.
@@ -27,12 +29,12 @@ class CoarsestFactor {
  private:
   bool same_places(std::size_t size, const StiffnessEntries& entries) const;
   void lay_places(std::size_t size, const StiffnessEntries& entries);
+  void lay_fronts(const StiffnessEntries& entries);
   template <class ValueOf>
   bool factorize(const ValueOf& value_of);
 
   Eigen::VectorXi place_;              ///< of every unknown in the factor
   Eigen::Index entries_of_order_ = 0;  ///< of the factor that the order was made for
-  Eigen::Index entries_now_ = 0;       ///< of the last factor
   std::vector<std::uint64_t> places_;  ///< row and column of every entry
   std::vector<std::size_t> at_;        ///< of every entry among the values of matrix_
   Eigen::SparseMatrix<double> matrix_;

@@ -61,7 +61,9 @@ void FrontFactor::lay_fronts(const Eigen::SparseMatrix<double>& lower) {
     }
   }
   link_fronts(int(later.size()));
-  lay_storage();
+  number_entries();
+  lower_.clear();
+  rest_.clear();
 }
 
 bool FrontFactor::joins_the_one_before() {
@@ -101,7 +103,7 @@ void FrontFactor::link_fronts(int unknowns) {
   }
 }
 
-void FrontFactor::lay_storage() {
+void FrontFactor::number_entries() {
   std::size_t lower = 0, rest = 0;
   for (Front& f : fronts_) {
     f.lower = lower;
@@ -109,13 +111,15 @@ void FrontFactor::lay_storage() {
     lower += std::size_t(f.rows()) * std::size_t(f.count);
     rest += f.later.size() * f.later.size();
   }
-  lower_.assign(lower, 0.0);
-  rest_.assign(rest, 0.0);
+  entries_ = Eigen::Index(lower);
+  rest_entries_ = Eigen::Index(rest);
 }
 
 bool FrontFactor::factorize(const Eigen::SparseMatrix<double>& lower) {
   const double* values = lower.valuePtr();
   const bool anew = values_.empty();
+  lower_.resize(std::size_t(entries_), 0.0);
+  rest_.resize(std::size_t(rest_entries_), 0.0);
   std::vector<char> renewed(fronts_.size(), 0);
   renewed_ = 0;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {

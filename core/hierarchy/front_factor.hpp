@@ -24,8 +24,8 @@ class FrontFactor {
   /// R K^-1 R^T. directions: R, a row for each, which may have few entries.
   Eigen::MatrixXd compliance(const Eigen::SparseMatrix<double>& directions) const;
 
-  /// Entries of L that are kept.
-  Eigen::Index entries() const { return Eigen::Index(lower_.size()); }
+  /// Entries of L that are kept, as soon as fronts are laid.
+  Eigen::Index entries() const { return entries_; }
   /// Fronts eliminated by the last factorize(), and all of them.
   std::size_t renewed() const { return renewed_; }
   std::size_t fronts() const { return fronts_.size(); }
@@ -46,7 +46,7 @@ class FrontFactor {
   using ConstDense = Eigen::Map<const Eigen::MatrixXd>;
 
   bool joins_the_one_before();
-  void lay_storage();
+  void number_entries();
   void link_fronts(int unknowns);
   void assemble(const Front& front, const Eigen::SparseMatrix<double>& lower);
   void add_rest(const Front& before, const Front& front);
@@ -60,9 +60,10 @@ class FrontFactor {
 
   std::vector<Front> fronts_;
   std::vector<std::vector<int>> taken_up_;  ///< by front: those whose rest it takes up
-  std::vector<double> lower_, rest_;
-  std::vector<double> values_;  ///< that the fronts were made for
-  std::vector<int> row_;        ///< of unknowns in the front at hand
+  Eigen::Index entries_ = 0, rest_entries_ = 0;
+  std::vector<double> lower_, rest_;  ///< empty until the first factor
+  std::vector<double> values_;        ///< that the fronts were made for
+  std::vector<int> row_;              ///< of unknowns in the front at hand
   std::size_t renewed_ = 0;
 };
 

@@ -2,11 +2,14 @@
 /// Factors made of dense fronts solve as dense ones do, and make anew only what has changed.
 #include "core/hierarchy/front_factor.hpp"
 
+#include "core/hierarchy/coarsest_factor.hpp"
 #include "core/hierarchy/elimination_order.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <random>
 
 namespace cdca::testing {
@@ -38,6 +41,7 @@ class Springs {
     place_ = elimination_order(std::size_t(size_), entries_);
   }
   Eigen::SparseMatrix<double> lower() const { return in_order(place_, entries_, false); }
+  const StiffnessEntries& entries() const { return entries_; }
   int size() const { return size_; }
   int place_of(int i, int j) const { return place_[unknown(i, j, 0)]; }
 
@@ -131,6 +135,28 @@ TEST(FrontFactor, SaysWhereThereIsNone) {
   EXPECT_FALSE(factor.factorize(lower));
   EXPECT_TRUE(factor.factorize(good));
   EXPECT_EQ(factor.renewed(), factor.fronts());
+}
+
+/// Growth may leave as many unknowns as there were, with other numbers: in an order that was made
+/// for the old ones the factor would fill up the memory.
+TEST(CoarsestFactor, OrdersAnewWhereUnknownsHaveOtherNumbers) {
+  const Springs springs(17);
+  const auto size = std::size_t(springs.size());
+  std::vector<int> number(size);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937(3));
+  StiffnessEntries renumbered;
+  for (const auto& e : springs.entries())
+    renumbered.emplace_back(number[std::size_t(e.row())], number[std::size_t(e.col())], e.value());
+  CoarsestFactor kept, anew;
+  ASSERT_TRUE(kept.compute(size, springs.entries()));
+  ASSERT_TRUE(kept.compute(size, renumbered));
+  ASSERT_TRUE(anew.compute(size, renumbered));
+  EXPECT_LT(double(kept.entries()), 1.5 * double(anew.entries()));
+  Eigen::VectorXd by_kept = Eigen::VectorXd::LinSpaced(springs.size(), 1, 2), by_anew = by_kept;
+  kept.solve(by_kept);
+  anew.solve(by_anew);
+  EXPECT_LT((by_kept - by_anew).norm(), 1e-10 * by_anew.norm());
 }
 
 }  // namespace
