@@ -23,7 +23,12 @@ struct DragStep {
 /// balance.
 FaceBalance::Found balance(Model& model, ContactSolves& solves, Forces& given,
                            const FaceTurns::Rule& rule, bool limits_go_along) {
-  FaceBalance::Rule all{.enough = rule.enough, .drag = rule.drag, .limits_stay = true};
+  // where faces do not soon come into balance on the condensed body, more drag costs less than
+  // interior points
+  const FaceBalance::Rule all{.enough = rule.enough,
+                              .drag = rule.drag,
+                              .limits_stay = true,
+                              .turns_alone = model.condenses()};
   if (!limits_go_along) return FaceBalance(model, solves, given, all).find();
   const Model::ContactMemory memory = model.contact_memory();
   const std::vector<double> state = model.state();
