@@ -31,6 +31,14 @@ FaceSide side_of_piece(const BasisContext& c, const TipZone& zone, LocalId node,
 
 }  // namespace
 
+std::array<double, 4> tip_values_at_node(const BasisContext& context, const TipZone& zone,
+                                         LocalId node, int piece) {
+  const StructuredGrid& grid = context.mesh.grid();
+  const Vec2 x = grid.node_position(context.mesh.node(node));
+  const FaceSide side = side_of_piece(context, zone, node, piece);
+  return near_tip_functions(zone.frame.polar(x, side)).value;
+}
+
 PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
     : corner_(context.mesh.grid().node_position({element.i, element.j})),
       size_(context.mesh.grid().element_size()) {

@@ -41,6 +41,11 @@ struct BasisContext {
   const CellUnknowns& unknowns;
 };
 
+/// The four functions of Eq. 5 at a node, m^1/2, as a piece of its cell takes them: F_l(x_i) below.
+/// The cell must have that piece and functions of the zone.
+std::array<double, 4> tip_values_at_node(const BasisContext& context, const TipZone& zone,
+                                         LocalId node, int piece);
+
 /// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq.
 /// 4-5, in the basis of pieces). Of b the unknowns are the coefficients of functions that are
 /// orthonormal in the cell; cells with mode functions have b = sum over modes of V_l k_i. A

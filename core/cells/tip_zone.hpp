@@ -43,7 +43,8 @@ struct ZoneRule {
   double little_room = 4.0;
   double reach_with_little_room = 5.0;
   /// Cells that more tips than this want to give their fields to take those of the nearest, and of
-  /// any just as near: where tips crowd, all of them would be many unknowns for no better K.
+  /// any just as near, first of tips that have not joined: where tips crowd, all of them would be
+  /// many unknowns for no better K.
   int most_tips = 2;
 };
 

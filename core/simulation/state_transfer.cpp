@@ -39,6 +39,43 @@ const TipUnknowns* same_tip(const BasisContext& before, LocalId node, const TipZ
   return nullptr;
 }
 
+/// Coefficients of the four functions of Eq. 5, x and y: what a tip adds to its cell.
+using TipField = Eigen::Matrix<double, 4, 2>;
+
+TipField field_of(const TipUnknowns& tip, const TipZone& zone, const std::vector<double>& state) {
+  const auto first = std::size_t(tip.first);
+  TipField field;
+  if (tip.has_modes()) {
+    const Vec2 modes(state[first], state[first + 1]);
+    for (Eigen::Index l = 0; l < 4; ++l)
+      field.row(l) = (zone.modes[std::size_t(l)] * modes).transpose();
+    return field;
+  }
+  for (Eigen::Index l = 0; l < 4; ++l)
+    field.row(l) << state[first + std::size_t(2 * l)], state[first + std::size_t(2 * l + 1)];
+  return tip.functions * field;
+}
+
+/// The unknowns of a tip on the way from one set of cracks to another.
+struct CarriedTip {
+  const TipZone *was, *is;
+  TipField field;
+};
+
+/// By how much the functions are shifted otherwise at a node than they were: a piece moves by that
+/// lest the field there changes.
+Vec2 shift_of(const std::vector<CarriedTip>& tips, const BasisContext& before, int old_piece,
+              const BasisContext& after, int piece, LocalId node) {
+  Vec2 shift(0, 0);
+  for (const CarriedTip& tip : tips) {
+    const auto was = tip_values_at_node(before, *tip.was, node, old_piece);
+    const auto is = tip_values_at_node(after, *tip.is, node, piece);
+    for (std::size_t l = 0; l < 4; ++l)
+      shift += (is[l] - was[l]) * tip.field.row(Eigen::Index(l)).transpose();
+  }
+  return shift;
+}
+
 }  // namespace
 
 std::vector<double> carried_state(const BasisContext& before, std::vector<double> old_state,
@@ -50,13 +87,30 @@ std::vector<double> carried_state(const BasisContext& before, std::vector<double
   };
   for (const LocalId n : after.unknowns.special_nodes()) {
     if (!after.mesh.owns(n)) break;
+    std::vector<CarriedTip> tips;
+    for (const TipUnknowns& tip : after.unknowns.tips(n)) {
+      const TipZone& zone = after.zones[std::size_t(tip.zone)];
+      const TipUnknowns* old = same_tip(before, n, zone);
+      if (!old || old->count != tip.count) continue;
+      const TipZone& old_zone = before.zones[std::size_t(old->zone)];
+      tips.push_back({&old_zone, &zone, field_of(*old, old_zone, old_state)});
+      if (tip.has_modes()) {
+        carry(old->first, tip.first, 2);
+        continue;
+      }
+      const TipField values = tip.functions.partialPivLu().solve(tips.back().field);
+      for (LocalId l = 0; l < 4; ++l) {
+        special.emplace_back(tip.first + 2 * l, values(l, 0));
+        special.emplace_back(tip.first + 2 * l + 1, values(l, 1));
+      }
+    }
     for (int p = 0; p < after.unknowns.pieces(n); ++p) {
       const int old = old_piece_of(before, after, n, p);
-      carry(before.unknowns.of_piece(n, old), after.unknowns.of_piece(n, p), 2);
-    }
-    for (const TipUnknowns& tip : after.unknowns.tips(n)) {
-      const TipUnknowns* old = same_tip(before, n, after.zones[std::size_t(tip.zone)]);
-      if (old && old->count == tip.count) carry(old->first, tip.first, tip.count);
+      const Vec2 shift = shift_of(tips, before, old, after, p, n);
+      const auto from = std::size_t(before.unknowns.of_piece(n, old));
+      const LocalId to = after.unknowns.of_piece(n, p);
+      special.emplace_back(to, old_state[from] + shift.x());
+      special.emplace_back(to + 1, old_state[from + 1] + shift.y());
     }
   }
   // most cells are plain, and have their two unknowns at the same place
