@@ -3,6 +3,7 @@
 /// as the meeting says, whatever the place of the junction in the grid.
 #include "core/cracks/meetings.hpp"
 #include "core/mechanics/interaction_integral.hpp"
+#include "core/simulation/linear_solve.hpp"
 #include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
 
@@ -170,6 +171,28 @@ TEST(Joining, GivesNoEnergyBack) {
     const Joined before(cracks, {}), after(cracks, {{2, 1, Vec2(0.0, -0.5)}});
     EXPECT_NE(after.registry().cracks()[2].ends[1].state, TipState::active);
     EXPECT_LT(after.equilibrium.strain_energy, before.equilibrium.strain_energy) << "case " << k;
+  }
+}
+
+/// Before the new crack opens, the body strains as it did: a step that joins a wall in front of the
+/// tip takes nothing from the field.
+TEST(Joining, LeavesTheFieldAsItWasUntilTheCrackOpens) {
+  for (const double turn : {-60.0, -20.0, 0.0, 35.0, 60.0}) {
+    const Polylines cracks{{{4, 7.83}, {8.93, 8.03}}, {{9.9, 4.2}, {9.9, 12.1}}};
+    const auto model = built(pulled(cracks));
+    const auto energy = [&] {
+      return 0.5 * model->stiffness().dot(model->state(), inner_forces(*model));
+    };
+    find_equilibrium(*model, *make_solver(*model), 1.0);
+    const double before = energy(), touch = model->touch_distance();
+    const Vec2 from = cracks[0].back();
+    CrackRegistry registry = model->registry();
+    apply_increments(
+        resolve_meetings(registry, model->body(), touch, {{0, 1, from, from + polar(turn, 2)}}),
+        touch, 1, 0, registry);
+    ASSERT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced) << turn;
+    model->lay_cracks(registry);
+    EXPECT_NEAR(energy(), before, 1e-8 * before) << turn;
   }
 }
 
