@@ -146,9 +146,11 @@ constexpr Option option_table[] = {
      .unit = "m",
      .range = not_negative,
      .standard = "0.0",
-     .text = "Nodes within this distance of a tip get near-tip functions; 0: the nodes of the tip "
-             "element only. Where another crack or the rim is within four elements of the tip, "
-             "nodes up to five elements away get them in the proportions of modes I and II."},
+     .text =
+         "Nodes within this distance of a tip get near-tip functions; 0: the nodes of the tip "
+         "element only. Where another crack or the rim is within four elements of the tip, "
+         "nodes up to five elements away get them in the proportions of modes I and II. Where a "
+         "tip was before it joined a crack or the rim, they stay."},
 
     {.section = "crack",
      .key = "name",
