@@ -12,7 +12,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double largest_bend = 110.0 / 180.0 * pi;
 /// rad from the crack's prolongation: a place farther round is taken for one on or close to a face
-/// of the crack. No step that grows from the tip comes so far.
+/// of the crack. Growth by the hoop stress (70.5 degrees at most) that turns to what it joins (60
+/// more) does not come so far.
 constexpr double at_face = 135.0 / 180.0 * pi;
 constexpr double straight_on = 1e-9;  ///< rad: bends less than this do not show
 }  // namespace

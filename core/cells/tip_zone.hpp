@@ -53,7 +53,7 @@ struct ZoneRule {
 /// A tip that growth has joined leaves its functions behind: they go on to act on all that can be
 /// reached from where it was, on either side of the new crack. Without them the space would lose
 /// more than the new crack gives to it, and a join would give back energy where it lies in a narrow
-/// neck.
+/// neck. Of their modes cells keep those that most_tips leaves them.
 ///
 /// Cells: the corners of every element that holds the tip (also on its rim), all nodes within the
 /// radius, and with little room those in reach of which at least half of the support can be reached

@@ -40,8 +40,11 @@ void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int 
                             int cycle) {
   Crack& crack = cracks_[std::size_t(c)];
   const bool at_start = end == 0;
-  const bool grows = to != crack.end_point(end), was_tip = state != TipState::active && step > 0;
-  crack.ends[std::size_t(end)] = {state, partner, was_tip ? int(grows) : -1};
+  const bool grows = to != crack.end_point(end);
+  CrackEnd& there = crack.ends[std::size_t(end)];
+  there = {state, partner, -1};
+  // in load step 0 initial cracks are put in place, whose ends have not been tips yet
+  if (state != TipState::active && step > 0) there.tip_was = grows ? 1 : 0;
   if (grows) {
     crack.points.insert(at_start ? crack.points.begin() : crack.points.end(), to);
     crack.age.insert(at_start ? crack.age.begin() : crack.age.end(), step);
