@@ -31,12 +31,10 @@ FaceSide side_of_piece(const BasisContext& c, const TipZone& zone, LocalId node,
 
 }  // namespace
 
-std::array<double, 4> tip_values_at_node(const BasisContext& context, const TipZone& zone,
-                                         LocalId node, int piece) {
-  const StructuredGrid& grid = context.mesh.grid();
-  const Vec2 x = grid.node_position(context.mesh.node(node));
+TipAtNode tip_at_node(const BasisContext& context, const TipZone& zone, LocalId node, int piece) {
+  const Vec2 x = context.mesh.grid().node_position(context.mesh.node(node));
   const FaceSide side = side_of_piece(context, zone, node, piece);
-  return near_tip_functions(zone.frame.polar(x, side)).value;
+  return {side, near_tip_functions(zone.frame.polar(x, side)).value};
 }
 
 PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
@@ -44,7 +42,6 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
       size_(context.mesh.grid().element_size()) {
   const StructuredGrid& grid = context.mesh.grid();
   const auto nodes = context.mesh.element_nodes(element);
-  const auto corners = grid.corners(element);
   const GlobalId id = grid.element(element);
   if (const CutElement* cut = context.cuts.find(element)) {
     for (const ElementPolygon& polygon : cut->polygons) {
@@ -59,10 +56,7 @@ PartBasis::PartBasis(const BasisContext& context, GridIndex element, int part)
     for (const TipUnknowns& tip : context.unknowns.tips(nodes[a])) {
       const TipZone& zone = context.zones[std::size_t(tip.zone)];
       if (!zone.acts_on(id, part)) continue;
-      const FaceSide side = side_of_piece(context, zone, nodes[a], piece);
-      const auto at_node =
-          near_tip_functions(zone.frame.polar(grid.node_position(corners[a]), side));
-      tips_.push_back({a, &zone, &tip, side, at_node.value});
+      tips_.push_back({a, &zone, &tip, tip_at_node(context, zone, nodes[a], piece)});
     }
   }
   // one zone after the other, so that its functions are evaluated once a point
@@ -115,7 +109,7 @@ void PartBasis::for_each_function(const Vec2& p, const Vec2* inside, const Visit
     Eigen::Vector4d values;
     Eigen::Matrix<double, 2, 4> gradients;
     for (std::size_t l = 0; l < 4; ++l) {
-      const double shifted = f.value[l] - tip.at_node[l];
+      const double shifted = f.value[l] - tip.at_node.values[l];
       const auto k = Eigen::Index(l);
       values[k] = n.value[tip.corner] * shifted;
       gradients.col(k) = shifted * n.gradient[tip.corner] + n.value[tip.corner] * f.gradient[l];
@@ -153,7 +147,7 @@ std::vector<double> PartBasis::tip_signature() const {
   std::vector<double> signature;
   for (const TipShape& tip : tips_) {
     signature.insert(signature.end(), {double(tip.corner), tip.unknowns->has_modes() ? 1.0 : 0.0,
-                                       double(int(tip.side))});
+                                       double(int(tip.at_node.side))});
     for (const Vec2& p : tip.zone->frame.path()) signature.insert(signature.end(), {p.x(), p.y()});
   }
   return signature;

@@ -41,10 +41,13 @@ struct BasisContext {
   const CellUnknowns& unknowns;
 };
 
-/// The four functions of Eq. 5 at a node, m^1/2, as a piece of its cell takes them: F_l(x_i) below.
+/// The four functions of Eq. 5 at a node as a piece of its cell takes them: F_l(x_i) below.
+struct TipAtNode {
+  FaceSide side;                 ///< of the piece
+  std::array<double, 4> values;  ///< as seen from there, m^1/2
+};
 /// The cell must have that piece and functions of the zone.
-std::array<double, 4> tip_values_at_node(const BasisContext& context, const TipZone& zone,
-                                         LocalId node, int piece);
+TipAtNode tip_at_node(const BasisContext& context, const TipZone& zone, LocalId node, int piece);
 
 /// u^h = sum over cells of N_i chi_(i,p) v_(i,p) + N_i (F_l - F_l(x_i)) b_(i,l) on one part (Eq.
 /// 4-5, in the basis of pieces). Of b the unknowns are the coefficients of functions that are
@@ -76,8 +79,7 @@ class PartBasis {
     std::size_t corner;
     const TipZone* zone;
     const TipUnknowns* unknowns;
-    FaceSide side;                  ///< of the piece
-    std::array<double, 4> at_node;  ///< as seen from there
+    TipAtNode at_node;
   };
   /// Calls visit(unknown, value, gradient, directions) for every function.
   template <class Visit>

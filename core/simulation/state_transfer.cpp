@@ -56,11 +56,26 @@ TipField field_of(const TipUnknowns& tip, const TipZone& zone, const std::vector
   return tip.functions * field;
 }
 
-/// The unknowns of a tip on the way from one set of cracks to another.
+/// The field of a tip on the way from one set of cracks to another.
 struct CarriedTip {
   const TipZone *was, *is;
+  const TipUnknowns *from, *to;
   TipField field;
 };
+
+/// Tips that go on to serve the cell, in the same proportions.
+std::vector<CarriedTip> carried_tips(const BasisContext& before, const std::vector<double>& state,
+                                     const BasisContext& after, LocalId node) {
+  std::vector<CarriedTip> tips;
+  for (const TipUnknowns& tip : after.unknowns.tips(node)) {
+    const TipZone& zone = after.zones[std::size_t(tip.zone)];
+    const TipUnknowns* old = same_tip(before, node, zone);
+    if (!old || old->count != tip.count) continue;
+    const TipZone& old_zone = before.zones[std::size_t(old->zone)];
+    tips.push_back({&old_zone, &zone, old, &tip, field_of(*old, old_zone, state)});
+  }
+  return tips;
+}
 
 /// By how much the functions are shifted otherwise at a node than they were: a piece moves by that
 /// lest the field there changes.
@@ -68,8 +83,8 @@ Vec2 shift_of(const std::vector<CarriedTip>& tips, const BasisContext& before, i
               const BasisContext& after, int piece, LocalId node) {
   Vec2 shift(0, 0);
   for (const CarriedTip& tip : tips) {
-    const auto was = tip_values_at_node(before, *tip.was, node, old_piece);
-    const auto is = tip_values_at_node(after, *tip.is, node, piece);
+    const auto was = tip_at_node(before, *tip.was, node, old_piece).values;
+    const auto is = tip_at_node(after, *tip.is, node, piece).values;
     for (std::size_t l = 0; l < 4; ++l)
       shift += (is[l] - was[l]) * tip.field.row(Eigen::Index(l)).transpose();
   }
@@ -81,36 +96,28 @@ Vec2 shift_of(const std::vector<CarriedTip>& tips, const BasisContext& before, i
 std::vector<double> carried_state(const BasisContext& before, std::vector<double> old_state,
                                   const BasisContext& after) {
   std::vector<std::pair<LocalId, double>> special;
-  const auto carry = [&](LocalId from, LocalId to, LocalId count) {
-    for (LocalId k = 0; k < count; ++k)
-      special.emplace_back(to + k, old_state[std::size_t(from + k)]);
+  const auto put = [&special](LocalId first, const Vec2& values) {
+    special.emplace_back(first, values.x());
+    special.emplace_back(first + 1, values.y());
   };
   for (const LocalId n : after.unknowns.special_nodes()) {
     if (!after.mesh.owns(n)) break;
-    std::vector<CarriedTip> tips;
-    for (const TipUnknowns& tip : after.unknowns.tips(n)) {
-      const TipZone& zone = after.zones[std::size_t(tip.zone)];
-      const TipUnknowns* old = same_tip(before, n, zone);
-      if (!old || old->count != tip.count) continue;
-      const TipZone& old_zone = before.zones[std::size_t(old->zone)];
-      tips.push_back({&old_zone, &zone, field_of(*old, old_zone, old_state)});
-      if (tip.has_modes()) {
-        carry(old->first, tip.first, 2);
+    const auto tips = carried_tips(before, old_state, after, n);
+    for (const CarriedTip& tip : tips) {
+      if (tip.to->has_modes()) {
+        const auto modes = std::size_t(tip.from->first);
+        put(tip.to->first, {old_state[modes], old_state[modes + 1]});
         continue;
       }
-      const TipField values = tip.functions.partialPivLu().solve(tips.back().field);
-      for (LocalId l = 0; l < 4; ++l) {
-        special.emplace_back(tip.first + 2 * l, values(l, 0));
-        special.emplace_back(tip.first + 2 * l + 1, values(l, 1));
-      }
+      const TipField values = tip.to->functions.partialPivLu().solve(tip.field);
+      for (Eigen::Index l = 0; l < 4; ++l)
+        put(tip.to->first + 2 * LocalId(l), values.row(l).transpose());
     }
     for (int p = 0; p < after.unknowns.pieces(n); ++p) {
       const int old = old_piece_of(before, after, n, p);
       const Vec2 shift = shift_of(tips, before, old, after, p, n);
       const auto from = std::size_t(before.unknowns.of_piece(n, old));
-      const LocalId to = after.unknowns.of_piece(n, p);
-      special.emplace_back(to, old_state[from] + shift.x());
-      special.emplace_back(to + 1, old_state[from + 1] + shift.y());
+      put(after.unknowns.of_piece(n, p), Vec2(old_state[from], old_state[from + 1]) + shift);
     }
   }
   // most cells are plain, and have their two unknowns at the same place
