@@ -104,10 +104,9 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
       now_(std::size_t(unknowns_before.count() - plain_), -1) {
   mark_changed(mesh, unknowns);
   carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
-  mark_zones(unknowns, same_rows_);
+  mark_zones(unknowns);
   for (std::size_t n = 0; n < same_.size(); ++n) same_[n] &= same_rows_[n];
   mark_turned(mesh);
-  mark_zones(unknowns, same_);
 }
 
 void CarriedCells::differs_round(const LocalMesh& mesh, LocalId node) {
@@ -199,7 +198,7 @@ void CarriedCells::carry_unknowns(const LocalMesh& mesh, const CellUnknowns& unk
   }
 }
 
-void CarriedCells::mark_zones(const CellUnknowns& unknowns, std::vector<char>& same) {
+void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
   // functions that strain nothing are held zone by zone
   std::map<int, std::vector<LocalId>> zones;
   for (const LocalId n : unknowns.special_nodes()) {
@@ -210,9 +209,9 @@ void CarriedCells::mark_zones(const CellUnknowns& unknowns, std::vector<char>& s
     found = false;
     for (const auto& [number, nodes] : zones) {
       const auto kept = std::count_if(nodes.begin(), nodes.end(),
-                                      [&](LocalId n) { return same[std::size_t(n)] != 0; });
+                                      [&](LocalId n) { return same_rows_[std::size_t(n)] != 0; });
       if (kept == 0 || kept == std::ptrdiff_t(nodes.size())) continue;
-      for (const LocalId n : nodes) same[std::size_t(n)] = 0;
+      for (const LocalId n : nodes) same_rows_[std::size_t(n)] = 0;
       found = true;
     }
   }

@@ -63,8 +63,8 @@ class CarriedCells {
                    const CellUnknowns& unknowns, const std::vector<char>& held,
                    const std::vector<double>& springs);
   void mark_turned(const LocalMesh& mesh);
-  /// Cells of a tip zone are the same together, or none is.
-  static void mark_zones(const CellUnknowns& unknowns, std::vector<char>& same);
+  /// Rows of cells of a tip zone are the same together, or none is.
+  void mark_zones(const CellUnknowns& unknowns);
   void differs_round(const LocalMesh& mesh, LocalId node);
 
   const CellStiffness& before_;

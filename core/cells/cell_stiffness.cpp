@@ -73,7 +73,7 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   const auto with_rows = cells_with_rows(mesh, elements.special(), held_, own_rows);
   regular_ = RegularRuns(mesh, runs_without(mesh.own_runs(), with_rows), elements.plain());
   build_rows(mesh, unknowns, elements, with_rows, carried);
-  add_all_springs(mesh, unknowns, elements, springs);
+  add_all_springs(mesh, elements, springs);
   if (sweeps == Sweeps::one_after_the_other) {
     build_groups(mesh, unknowns, held, with_rows);
     order_items();
@@ -81,19 +81,17 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   }
 }
 
-void CellStiffness::turn_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                                 ElementStiffness& elements, const std::vector<double>& springs) {
+void CellStiffness::turn_springs(const LocalMesh& mesh, ElementStiffness& elements,
+                                 const std::vector<double>& springs) {
   if (!without_springs_.empty()) rows_.value = without_springs_;
   springs_.clear();
-  add_all_springs(mesh, unknowns, elements, springs);
+  add_all_springs(mesh, elements, springs);
 }
 
-void CellStiffness::add_all_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                                    ElementStiffness& elements,
+void CellStiffness::add_all_springs(const LocalMesh& mesh, ElementStiffness& elements,
                                     const std::vector<double>& springs) {
   if (!springs.empty()) without_springs_ = rows_.value;
   add_faces(mesh, elements);
-  hold_idle_functions(mesh, unknowns, rows_);
   if (!springs.empty()) add_springs(springs);
 }
 
@@ -130,7 +128,9 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
       sum.add(own_part.unknowns, std::move(own_part.matrix));
     for (const PartStiffness* face : elements.faces(element)) sum.make_places(face->unknowns);
   }
-  rows_ = kept.with(sum.rows(wanted, owned_));
+  StiffnessRows made = sum.rows(wanted, owned_);
+  hold_idle_functions(mesh, unknowns, made);
+  rows_ = kept.with(std::move(made));
 }
 
 void CellStiffness::add_faces(const LocalMesh& mesh, ElementStiffness& elements) {

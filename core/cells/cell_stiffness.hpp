@@ -35,7 +35,7 @@ class CellStiffness final : public CellSystem {
 
   /// Springs of faces are what the elements say now, and weak springs these; all else stays. Not
   /// for cells that sweep. Collective where the constructor is.
-  void turn_springs(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
+  void turn_springs(const LocalMesh& mesh, ElementStiffness& elements,
                     const std::vector<double>& springs);
 
   LocalId owned() const override { return owned_; }
@@ -95,8 +95,8 @@ class CellStiffness final : public CellSystem {
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<LocalId>& with_rows, const CarriedCells* carried);
   /// Springs of faces and weak springs, on top of the rows.
-  void add_all_springs(const LocalMesh& mesh, const CellUnknowns& unknowns,
-                       ElementStiffness& elements, const std::vector<double>& springs);
+  void add_all_springs(const LocalMesh& mesh, ElementStiffness& elements,
+                       const std::vector<double>& springs);
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
   void add_springs(const std::vector<double>& springs);
   void build_groups(const LocalMesh& mesh, const CellUnknowns& unknowns,

@@ -13,6 +13,9 @@ namespace cdca {
 namespace {
 
 void hold_idle(std::vector<LocalId> block, StiffnessRows& rows) {
+  const bool has_rows =
+      std::all_of(block.begin(), block.end(), [&rows](LocalId u) { return rows.find(u) >= 0; });
+  if (!has_rows) return;
   std::sort(block.begin(), block.end());
   constexpr double idle = 1e-12, well_apart = 1e-9;
   const auto size = Eigen::Index(block.size());

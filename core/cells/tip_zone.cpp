@@ -238,28 +238,25 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
   return zone;
 }
 
-/// Leaves cells the modes of the `most` tips that are nearest to them, and of all just as near.
-/// Those of tips that have joined come last.
+/// Leaves cells the modes of the `most` tips that are nearest to them, and of all just as near;
+/// those of tips that have joined do not count, and stay.
 void leave_crowded_cells(const StructuredGrid& grid, std::vector<TipZone>& zones, int most) {
   const auto distance = [&grid](const TipZone& zone, GlobalId n) {
     return (grid.node_position(grid.node_index(n)) - zone.frame.tip()).norm();
   };
-  using Rank = std::pair<bool, double>;  // has joined, distance
-  const auto rank = [&](const TipZone& zone, GlobalId n) {
-    return Rank(!zone.is_active, distance(zone, n));
-  };
-  std::unordered_map<GlobalId, std::vector<Rank>> wanted;
+  std::unordered_map<GlobalId, std::vector<double>> wanted;
   for (const TipZone& zone : zones) {
-    for (const GlobalId n : zone.nodes) wanted[n].push_back(rank(zone, n));
-    for (const GlobalId n : zone.with_modes) wanted[n].push_back(rank(zone, n));
+    if (!zone.is_active) continue;
+    for (const GlobalId n : zone.nodes) wanted[n].push_back(distance(zone, n));
+    for (const GlobalId n : zone.with_modes) wanted[n].push_back(distance(zone, n));
   }
-  for (auto& [n, tips] : wanted) std::sort(tips.begin(), tips.end());
+  for (auto& [n, distances] : wanted) std::sort(distances.begin(), distances.end());
   for (TipZone& zone : zones) {
     std::erase_if(zone.with_modes, [&](GlobalId n) {
+      if (!zone.is_active) return false;
       const auto& tips = wanted[n];
-      if (int(tips.size()) <= most) return false;
-      const auto& [joined, farthest] = tips[std::size_t(most - 1)];
-      return rank(zone, n) > Rank(joined, (1 + 1e-9) * farthest);
+      return int(tips.size()) > most &&
+             distance(zone, n) > (1 + 1e-9) * tips[std::size_t(most - 1)];
     });
     zone.nodes.insert(zone.with_modes.begin(), zone.with_modes.end());
   }

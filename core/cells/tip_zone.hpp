@@ -43,8 +43,8 @@ struct ZoneRule {
   double little_room = 4.0;
   double reach_with_little_room = 5.0;
   /// Cells that more tips than this want to give their fields to take those of the nearest, and of
-  /// any just as near, first of tips that have not joined: where tips crowd, all of them would be
-  /// many unknowns for no better K.
+  /// any just as near: where tips crowd, all of them would be many unknowns for no better K. Tips
+  /// that have joined do not count.
   int most_tips = 2;
 };
 
@@ -53,7 +53,7 @@ struct ZoneRule {
 /// A tip that growth has joined leaves its functions behind: they go on to act on all that can be
 /// reached from where it was, on either side of the new crack. Without them the space would lose
 /// more than the new crack gives to it, and a join would give back energy where it lies in a narrow
-/// neck. Of their modes cells keep those that most_tips leaves them.
+/// neck. For the same reason their modes stay in all cells.
 ///
 /// Cells: the corners of every element that holds the tip (also on its rim), all nodes within the
 /// radius, and with little room those in reach of which at least half of the support can be reached

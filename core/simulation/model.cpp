@@ -169,7 +169,7 @@ void Model::build_stiffness(double weak_share) { make_stiffness(weak_share, null
 void Model::renew_stiffness(double weak_share) {
   weak_share_ = weak_share;
   if (hierarchy_.count() == 1) {
-    stiffness_->turn_springs(mesh_, unknowns_, *elements_, springs(weak_share));
+    stiffness_->turn_springs(mesh_, *elements_, springs(weak_share));
     hierarchy_.turn_springs();
     return;
   }

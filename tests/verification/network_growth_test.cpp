@@ -2,6 +2,7 @@
 /// Random networks of cracks grow to the end: whatever meets whatever, a run ends as completed or
 /// separated, with finite numbers, and growth never gives energy back.
 #include "core/base/errors.hpp"
+#include "core/cells/element_stiffness.hpp"
 #include "core/cracks/random_cracks.hpp"
 #include "core/simulation/creep.hpp"
 #include "core/simulation/energy_ledger.hpp"
@@ -164,6 +165,55 @@ TEST(SlowSmallTipZones, HoldWhatStrainsNothing) {
     model.build_stiffness();
     EXPECT_NO_THROW(find_equilibrium(model, *make_solver(model), 0.3)) << "seed " << seed;
   }
+}
+
+/// Forces of all faces of the model in a state, with the springs that they have now.
+std::vector<double> forces_of_faces(const Model& model, const std::vector<double>& state) {
+  const ElasticMatrix elastic = model.material().elastic_matrix();
+  StiffnessCache cache;
+  FinestElements elements(model.basis(), elastic, cache, &model.contact());
+  std::vector<double> forces(state.size(), 0.0);
+  for (const GlobalId id : elements.special()) {
+    for (const PartStiffness* face : elements.faces(model.grid().element_index(id))) {
+      Eigen::VectorXd u(Eigen::Index(face->unknowns.size()));
+      for (Eigen::Index k = 0; k < u.size(); ++k)
+        u[k] = state[std::size_t(face->unknowns[std::size_t(k)])];
+      const Eigen::VectorXd f = face->matrix * u;
+      for (Eigen::Index k = 0; k < u.size(); ++k)
+        forces[std::size_t(face->unknowns[std::size_t(k)])] += f[k];
+    }
+  }
+  return forces;
+}
+
+/// Near-tip functions that strain nothing are held whatever faces do: else the energy of an
+/// equilibrium would change where faces turn afterwards.
+TEST(TouchingFaces, ChangeNothingButTheirSprings) {
+  Model model(network_of_seed(35, Loading::compression), world(), world_partitioner());
+  model.build_stiffness();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  std::vector<double> state(model.state().size());
+  for (double& u : state) u = any(random);
+  const auto forces_without_faces = [&](const ContactAnswer& answer) {
+    for (ContactPatch& p : model.contact().patches()) p.now = answer;
+    model.renew_stiffness();
+    std::vector<double> forces(state.size(), 0.0);
+    model.stiffness().apply(state, forces);
+    model.stiffness().add_spring_forces(state, forces, -1.0);
+    const std::vector<double> of_faces = forces_of_faces(model, state);
+    for (std::size_t k = 0; k < forces.size(); ++k) forces[k] -= of_faces[k];
+    return forces;
+  };
+  ContactAnswer sticking;
+  sticking.normal_spring = sticking.tangential_spring = 1e3 * 1000 / model.grid().smallest_side();
+  const auto open = forces_without_faces({}), closed = forces_without_faces(sticking);
+  double largest = 0.0, off = 0.0;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    largest = std::max(largest, std::abs(open[k]));
+    off = std::max(off, std::abs(open[k] - closed[k]));
+  }
+  EXPECT_LE(off, 1e-9 * largest);
 }
 
 class NetworkGrowth : public ::testing::TestWithParam<Network> {};
