@@ -17,7 +17,7 @@ void hold_idle(std::vector<LocalId> block, StiffnessRows& rows) {
       std::all_of(block.begin(), block.end(), [&rows](LocalId u) { return rows.find(u) >= 0; });
   if (!has_rows) return;
   std::sort(block.begin(), block.end());
-  constexpr double idle = 1e-12, well_apart = 1e-9;
+  constexpr double idle = 1e-10, well_apart = 1e-7;
   const auto size = Eigen::Index(block.size());
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(size, size);
   const auto for_entries = [&](auto&& visit) {
