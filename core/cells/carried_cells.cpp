@@ -104,8 +104,8 @@ CarriedCells::CarriedCells(const LocalMesh& mesh, const CellUnknowns& unknowns_b
       now_(std::size_t(unknowns_before.count() - plain_), -1) {
   mark_changed(mesh, unknowns);
   carry_unknowns(mesh, unknowns_before, unknowns, held, springs);
-  mark_zones(unknowns);
   for (std::size_t n = 0; n < same_.size(); ++n) same_[n] &= same_rows_[n];
+  mark_zones(unknowns);
   mark_turned(mesh);
 }
 
@@ -209,9 +209,9 @@ void CarriedCells::mark_zones(const CellUnknowns& unknowns) {
     found = false;
     for (const auto& [number, nodes] : zones) {
       const auto kept = std::count_if(nodes.begin(), nodes.end(),
-                                      [&](LocalId n) { return same_rows_[std::size_t(n)] != 0; });
+                                      [&](LocalId n) { return same_[std::size_t(n)] != 0; });
       if (kept == 0 || kept == std::ptrdiff_t(nodes.size())) continue;
-      for (const LocalId n : nodes) same_rows_[std::size_t(n)] = 0;
+      for (const LocalId n : nodes) same_[std::size_t(n)] = 0;
       found = true;
     }
   }

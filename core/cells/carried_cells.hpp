@@ -41,7 +41,7 @@ class CarriedCells {
 
   /// All that the stiffness of a cell depends on is what it was,
   bool same(LocalId node) const { return same_[std::size_t(node)] != 0; }
-  /// but perhaps for springs.
+  /// but perhaps for springs and holds.
   bool same_rows(LocalId node) const { return same_rows_[std::size_t(node)] != 0; }
   /// The number of an old unknown of a cell that has the unknowns that it had. Numbers keep their
   /// order. Of other cells the two plain unknowns have one, and the rest -1.
@@ -63,7 +63,7 @@ class CarriedCells {
                    const CellUnknowns& unknowns, const std::vector<char>& held,
                    const std::vector<double>& springs);
   void mark_turned(const LocalMesh& mesh);
-  /// Rows of cells of a tip zone are the same together, or none is.
+  /// Cells of a tip zone are the same together, or none is.
   void mark_zones(const CellUnknowns& unknowns);
   void differs_round(const LocalMesh& mesh, LocalId node);
 

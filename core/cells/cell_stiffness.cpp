@@ -2,7 +2,6 @@
 #include "core/cells/cell_stiffness.hpp"
 
 #include "core/base/marked.hpp"
-#include "core/cells/idle_functions.hpp"
 #include "core/cells/kept_rows.hpp"
 
 #include <algorithm>
@@ -73,6 +72,7 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   const auto with_rows = cells_with_rows(mesh, elements.special(), held_, own_rows);
   regular_ = RegularRuns(mesh, runs_without(mesh.own_runs(), with_rows), elements.plain());
   build_rows(mesh, unknowns, elements, with_rows, carried);
+  holds_ = holds_of_idle_functions(mesh, unknowns, rows_, communicator);
   add_all_springs(mesh, elements, springs);
   if (sweeps == Sweeps::one_after_the_other) {
     build_groups(mesh, unknowns, held, with_rows);
@@ -90,7 +90,8 @@ void CellStiffness::turn_springs(const LocalMesh& mesh, ElementStiffness& elemen
 
 void CellStiffness::add_all_springs(const LocalMesh& mesh, ElementStiffness& elements,
                                     const std::vector<double>& springs) {
-  if (!springs.empty()) without_springs_ = rows_.value;
+  if (!springs.empty() || !holds_.empty()) without_springs_ = rows_.value;
+  for (const AddedStiffness& h : holds_) rows_.value[h.place] += h.value;
   add_faces(mesh, elements);
   if (!springs.empty()) add_springs(springs);
 }
@@ -128,9 +129,7 @@ void CellStiffness::build_rows(const LocalMesh& mesh, const CellUnknowns& unknow
       sum.add(own_part.unknowns, std::move(own_part.matrix));
     for (const PartStiffness* face : elements.faces(element)) sum.make_places(face->unknowns);
   }
-  StiffnessRows made = sum.rows(wanted, owned_);
-  hold_idle_functions(mesh, unknowns, made);
-  rows_ = kept.with(std::move(made));
+  rows_ = kept.with(sum.rows(wanted, owned_));
 }
 
 void CellStiffness::add_faces(const LocalMesh& mesh, ElementStiffness& elements) {

@@ -7,6 +7,7 @@
 #include "core/base/halo.hpp"
 #include "core/cells/cell_group.hpp"
 #include "core/cells/element_stiffness.hpp"
+#include "core/cells/idle_functions.hpp"
 #include "core/cells/regular_runs.hpp"
 #include "core/cells/stiffness_rows.hpp"
 
@@ -65,7 +66,8 @@ class CellStiffness final : public CellSystem {
   const RegularRuns& regular() const { return regular_; }
   /// Of all cells that do not use the common stencil; columns of ghosts included.
   const StiffnessRows& rows() const { return rows_; }
-  /// Values of the rows without springs of faces and weak springs: what cracks alone decide.
+  /// Values of the rows without springs of faces, weak springs and holds of functions that strain
+  /// nothing: what the elements round the cells alone decide.
   const std::vector<double>& without_springs() const {
     return without_springs_.empty() ? rows_.value : without_springs_;
   }
@@ -94,7 +96,7 @@ class CellStiffness final : public CellSystem {
 
   void build_rows(const LocalMesh& mesh, const CellUnknowns& unknowns, ElementStiffness& elements,
                   const std::vector<LocalId>& with_rows, const CarriedCells* carried);
-  /// Springs of faces and weak springs, on top of the rows.
+  /// Springs of faces, weak springs and holds, on top of the rows.
   void add_all_springs(const LocalMesh& mesh, ElementStiffness& elements,
                        const std::vector<double>& springs);
   void add_faces(const LocalMesh& mesh, ElementStiffness& elements);
@@ -115,7 +117,8 @@ class CellStiffness final : public CellSystem {
   LocalId count_ = 0;
   RegularRuns regular_;
   StiffnessRows rows_;
-  std::vector<double> without_springs_;   ///< empty when there are none
+  std::vector<AddedStiffness> holds_;     ///< of functions that strain nothing
+  std::vector<double> without_springs_;   ///< nor holds; empty when there are none
   std::vector<std::size_t> face_places_;  ///< of the values of all faces, one after the other
   std::vector<CellGroup> groups_;
   std::vector<Item> items_;

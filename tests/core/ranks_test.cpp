@@ -129,6 +129,46 @@ TEST(RanksParallel, WideTipZoneAcrossRanks) {
   expect_same(on_one_rank(spec), answer_of(model));
 }
 
+/// Forces of all cells in a state whose unknowns differ within each cell; squared and added up.
+double square_of_forces(Model& model) {
+  model.build_stiffness();
+  const CellStiffness& cells = model.stiffness();
+  std::vector<double> state(std::size_t(cells.count()), 0.0), forces = state;
+  for (LocalId n = 0; n < model.mesh().node_count(); ++n) {
+    double value = 0.0;
+    for (const LocalId u : model.unknowns().of_cell(n)) state[std::size_t(u)] = 1 + value++ / 16;
+  }
+  cells.apply(state, forces);
+  return cells.dot(forces, forces);
+}
+
+/// The tip of the first crack ends in a small triangle of three others: combinations of its
+/// functions in the four cells round it, together, strain nothing.
+TEST(RanksParallel, ATipShutInOneElementOfSeveralRanks) {
+  CaseSpec spec = plate({0, 0}, {10, 10}, 10, 10);
+  spec.solver.tolerance = 1e-11;
+  add_crack(spec, {{2.02424, 1.42979}, {4.40033, 4.6781}});
+  add_crack(spec, {{3.03817, 2.6076}, {7.6796, 9.6701}});
+  add_crack(spec, {{1.82011, 2.5341}, {8.61342, 7.5396}});
+  add_crack(spec, {{9.7173, 2.4034}, {3.97404, 5.1574}});
+  add_crack(spec, {{6.60187, 1.73532}, {2.19495, 8.6812}});
+  for (CrackSpec& crack : spec.cracks)
+    crack.contact = {ContactLaw::frictionless, 1e6, 0, 0, 0, 0, 0};
+  BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
+  top.displacement[1] = constant_load(0, -1e-2)[1];
+  bottom.displacement[1] = pin.displacement[0] = constant_load(0, 0)[1];
+  spec.boundaries = {top, bottom, pin};
+  const StructuredGrid grid(spec.domain.origin, spec.domain.size, 10, 10);
+  std::vector<int> columns;
+  for (GlobalId n = 0; n < grid.node_count(); ++n)
+    columns.push_back(grid.node_index(n).i % world().size());
+  SerialCommunicator alone;
+  Model one(spec, alone, BlockPartition()), many(spec, world(), BlockPartition(grid, 1, columns));
+  const double square = square_of_forces(one);
+  EXPECT_NEAR(square_of_forces(many), square, 1e-9 * square);
+  expect_same(on_one_rank(spec), answer_of(many));
+}
+
 TEST(RanksParallel, RankWithoutCells) {
   const CaseSpec spec = crowded_plate(0.0);
   const StructuredGrid grid(spec.domain.origin, spec.domain.size, nx, ny);
