@@ -11,7 +11,7 @@ namespace {
 constexpr double exact = 5e-7;   ///< of the index
 constexpr double narrow = 1e-6;  ///< of the factor: the index jumps there
 constexpr double held = 0.3;     ///< less than this part of a proportional slope: faces are held
-constexpr double up = 0.5, down = 0.25;             ///< the longest steps after the first growth
+constexpr double up = 0.5, down = 0.125;            ///< the longest steps after the first growth
 constexpr double of_last = 10.0, of_first = 100.0;  ///< the highest factor, in those of growth
 
 }  // namespace

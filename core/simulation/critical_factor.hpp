@@ -15,7 +15,7 @@ namespace cdca {
 /// grows under the load that is there, with an index above 1.
 ///
 /// After the first growth it goes by steps that let the way of friction be followed: at most half
-/// of the factor up, and a quarter of the last growth's down.
+/// of the factor up, and an eighth of the last growth's down.
 class CriticalFactor {
  public:
   /// last, first: factors of the last and of the first growth; 0 before any, when the index is

@@ -29,7 +29,7 @@ Found found(double last, const std::function<double(double)>& index, double firs
 }
 
 TEST(CriticalFactor, ProportionalIndexTakesTwoTrials) {
-  for (const double last : {0.0, 3.0, 5.0}) {
+  for (const double last : {0.0, 3.0, 4.5}) {
     const Found f = found(last, [](double s) { return s / 4; });
     EXPECT_NEAR(f.factor, 4.0, 1e-6);
     EXPECT_EQ(f.trials, 2);
@@ -48,7 +48,7 @@ TEST(CriticalFactor, GoesLongWaysInSteps) {
     while (!search.ended()) {
       const double factor = search.next();
       EXPECT_LE(factor, 1.5 * before * (1 + 1e-12));
-      EXPECT_GE(factor, before - 0.25 * last * (1 + 1e-12));
+      EXPECT_GE(factor, before - 0.125 * last * (1 + 1e-12));
       search.tell(factor / 4);
       on_the_way += search.on_the_way() && !search.ended();
       before = factor;
@@ -76,7 +76,7 @@ TEST(CriticalFactor, SnapsBackWhereFacesSlideBack) {
   EXPECT_NEAR(f.factor, 20.0 / 3, 1e-5);
 }
 
-/// What a quarter less load does not show, the whole way down does.
+/// What the first step down does not show, the whole way down does.
 TEST(CriticalFactor, SnapsBackPastFacesThatHoldAtFirst) {
   const Found f = found(10.0, [](double s) { return s > 6.5 ? 1.74 + 0.06 * (10 - s) : 0.16 * s; });
   EXPECT_TRUE(f.grows);
@@ -88,7 +88,7 @@ TEST(CriticalFactor, GrowsUnderTheLoadThatIsThereWhereFrictionHolds) {
     const Found f = found(10.0, [=](double s) { return 1.3 + slope * (s - 10); });
     EXPECT_TRUE(f.grows);
     EXPECT_EQ(f.factor, 10.0);
-    EXPECT_LE(f.trials, 3);
+    EXPECT_LE(f.trials, 4);
   }
 }
 
