@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <tuple>
 #include <utility>
