@@ -19,12 +19,14 @@ class FrontFactor::Compliance {
         place_(std::size_t(directions.rows()), -1),
         sum_(Eigen::MatrixXd::Zero(directions.rows(), directions.rows())) {}
 
+  /// Only once.
   Eigen::MatrixXd sum() {
     for (std::size_t f = 0; f < passed_.size(); ++f) {
       meet_directions(f);
       if (!passed_[f].directions.empty()) eliminate(f);
     }
-    return sum_.selfadjointView<Eigen::Lower>();
+    sum_.triangularView<Eigen::StrictlyUpper>() = sum_.transpose();
+    return std::move(sum_);
   }
 
  private:
@@ -60,14 +62,24 @@ class FrontFactor::Compliance {
     l.topRows(front.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
     passed_[f].rows = all.bottomRows(left);
     add_product(-1.0, l.bottomRows(left), own, Transposed::neither, passed_[f].rows);
-    const Eigen::MatrixXd weighted = l.diagonal().cwiseInverse().asDiagonal() * own;
-    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(own.cols(), own.cols());
-    add_lower_product(1.0, own, weighted, Transposed::first, part);
-    for (Eigen::Index c = 0; c < part.cols(); ++c) {
-      double* column = &sum_(0, met[std::size_t(c)]);
-      for (Eigen::Index r = c; r < part.rows(); ++r) column[met[std::size_t(r)]] += part(r, c);
-    }
+    add_to_sum(own, l.diagonal().cwiseInverse(), met);
     for (const int direction : met) place_[std::size_t(direction)] = -1;
+  }
+
+  /// A few columns at a time: the sum itself is large enough.
+  void add_to_sum(const Eigen::MatrixXd& own, const Eigen::VectorXd& weights,
+                  const std::vector<int>& met) {
+    constexpr Eigen::Index most = 512;
+    for (Eigen::Index first = 0; first < own.cols(); first += most) {
+      const Eigen::Index count = std::min(most, own.cols() - first), left = own.cols() - first;
+      const Eigen::MatrixXd weighted = weights.asDiagonal() * own.middleCols(first, count);
+      Eigen::MatrixXd part = Eigen::MatrixXd::Zero(left, count);
+      add_product(1.0, own.rightCols(left), weighted, Transposed::first, part);
+      for (Eigen::Index c = 0; c < count; ++c) {
+        double* column = &sum_(0, met[std::size_t(first + c)]);
+        for (Eigen::Index r = c; r < left; ++r) column[met[std::size_t(first + r)]] += part(r, c);
+      }
+    }
   }
 
   /// Entries of R^T in the rows of a front, with what it takes up.
