@@ -19,11 +19,19 @@ namespace {
 
 StructuredGrid grid_of(const DomainSpec& d) { return {d.origin, d.size, d.cells[0], d.cells[1]}; }
 
-HierarchyShape shape_of(const CaseSpec& spec) {
-  const bool touching = std::any_of(spec.cracks.begin(), spec.cracks.end(), [](const auto& crack) {
-    return crack.contact.law != ContactLaw::none;
-  });
-  return {{}, touching ? spec.solver.coarsest_touching : spec.solver.coarsest_nodes};
+/// Where many faces touch, many turns on the whole body cost more than factors of a larger one.
+HierarchyShape shape_of(const CaseSpec& spec, const StructuredGrid& grid) {
+  constexpr double nodes_per_face = 100;
+  double length = 0.0;
+  for (const CrackSpec& crack : spec.cracks) {
+    if (crack.contact.law == ContactLaw::none) continue;
+    for (std::size_t k = 1; k < crack.points.size(); ++k)
+      length += (crack.points[k] - crack.points[k - 1]).norm();
+  }
+  if (length == 0.0) return {{}, spec.solver.coarsest_nodes};
+  const double faces = length / grid.smallest_side();
+  const bool many = nodes_per_face * faces >= double(grid.node_count());
+  return {{}, many ? spec.solver.coarsest_many_touching : spec.solver.coarsest_touching};
 }
 
 }  // namespace
@@ -33,7 +41,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_(shape_of(spec)) {
+      hierarchy_(shape_of(spec, grid_)) {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_,
@@ -50,7 +58,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_(shape_of(spec)) {
+      hierarchy_(shape_of(spec, grid_)) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
   build_cells(nullptr);

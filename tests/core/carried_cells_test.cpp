@@ -83,11 +83,17 @@ CrackRegistry grown(const Model& model, std::mt19937& engine) {
   return registry;
 }
 
+/// The last scale has no more nodes than this, however many faces touch.
+void in_scales_of(CaseSpec& spec, std::int64_t nodes) {
+  SolverSpec& solver = spec.solver;
+  solver.coarsest_nodes = solver.coarsest_touching = solver.coarsest_many_touching = nodes;
+}
+
 class CarriedCellsParallel : public ::testing::TestWithParam<int> {
  protected:
   static CaseSpec plate_number(int number) {
     CaseSpec spec = plates()[std::size_t(number)];
-    spec.solver.coarsest_nodes = spec.solver.coarsest_touching = 60;
+    in_scales_of(spec, 60);
     return spec;
   }
 
@@ -132,7 +138,7 @@ class CarriedFacesParallel : public ::testing::TestWithParam<int> {
  protected:
   static CaseSpec plate_number(int number) {
     CaseSpec spec = with_faces(plates()[std::size_t(number)]);
-    spec.solver.coarsest_nodes = spec.solver.coarsest_touching = number == 1 ? 100000 : 60;
+    in_scales_of(spec, number == 1 ? 100000 : 60);
     return spec;
   }
   /// About one face in ten opens, closes or begins to slide.
@@ -178,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Plates, CarriedFacesParallel, ::testing::Range(0, 5));
 /// Of a plate in which one face opens, cells far from it are as they were.
 TEST(CarriedFaces, MostCellsAreTheSame) {
   CaseSpec spec = with_faces(plate_of(60, 120, three_cracks()));
-  spec.solver.coarsest_touching = 2000;
+  in_scales_of(spec, 2000);
   const auto model = built(spec);
   const std::int64_t all = model->hierarchy().factors().made();
   model->contact().patches()[3].now = ContactAnswer();

@@ -78,7 +78,10 @@ CaseSpec network_of_seed(unsigned seed, Loading loading, Scales scales = Scales:
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
-  if (scales == Scales::three) spec.solver.coarsest_nodes = spec.solver.coarsest_touching = 300;
+  if (scales == Scales::three) {
+    SolverSpec& solver = spec.solver;
+    solver.coarsest_nodes = solver.coarsest_touching = solver.coarsest_many_touching = 300;
+  }
   spec.load_factors.clear();
   for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;
