@@ -128,37 +128,40 @@ bool CondensedTurns::lay_reference(const Answers& with) {
   return true;
 }
 
-double CondensedTurns::less_at(const Answers& with, Eigen::Index k,
-                               const Eigen::Ref<const Eigen::VectorXd>& gaps) const {
-  const double pressed = with.with_pressure[k];
-  const double less = softer(with, k) * gaps[k];
-  return pressed == 0.0 ? less : less - lengths_[k] * pressed * gaps[across_of_[std::size_t(k)]];
+Eigen::VectorXd CondensedTurns::less_at(const Others& others,
+                                        const Eigen::Ref<const Eigen::VectorXd>& gaps) const {
+  return others.softer.cwiseProduct(gaps(others.places)) -
+         others.with_pressure.cwiseProduct(gaps(others.across));
 }
 
 CondensedTurns::Others CondensedTurns::others(const Answers& with) const {
   Others others;
   for (Eigen::Index k = 0; k < gaps_.size(); ++k) {
-    if (softer(with, k) != 0.0 || with.given[k] != base_given_[k] || with.with_pressure[k] != 0.0)
-      others.places.push_back(k);
+    if (softer(with, k) == 0.0 && with.given[k] == base_given_[k] && with.with_pressure[k] == 0.0)
+      continue;
+    const Eigen::Index across = across_of_[std::size_t(k)];
+    others.places.push_back(k);
+    others.across.push_back(across < 0 ? k : across);
   }
-  others.at = body_.reference.need(body_.compliance, others.places);
   const auto count = Eigen::Index(others.places.size());
+  others.softer.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    others.softer[i] = softer(with, others.places[std::size_t(i)]);
+  others.with_pressure = lengths_(others.places).cwiseProduct(with.with_pressure(others.places));
+  others.at = body_.reference.need(body_.compliance, others.places);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const auto column = body_.reference.columns().col(others.at[std::size_t(j)]);
-    for (Eigen::Index i = 0; i < count; ++i)
-      matrix(i, j) -= less_at(with, others.places[std::size_t(i)], column);
-  }
+  for (Eigen::Index j = 0; j < count; ++j)
+    matrix.col(j) -= less_at(others, body_.reference.columns().col(others.at[std::size_t(j)]));
   others.factor.compute(matrix);
   return others;
 }
 
-Eigen::VectorXd CondensedTurns::moved(const Others& others, const Answers& with,
-                                      Eigen::VectorXd gaps, const Eigen::VectorXd& given) const {
-  Eigen::VectorXd less(Eigen::Index(others.places.size()));
+Eigen::VectorXd CondensedTurns::moved(const Others& others, Eigen::VectorXd gaps,
+                                      const Eigen::VectorXd& given) const {
+  Eigen::VectorXd less = less_at(others, gaps);
   for (Eigen::Index i = 0; i < less.size(); ++i) {
     const Eigen::Index k = others.places[std::size_t(i)];
-    less[i] = less_at(with, k, gaps) - lengths_[k] * given[k];
+    less[i] -= lengths_[k] * given[k];
   }
   less = others.factor.solve(less);
   for (Eigen::Index j = 0; j < less.size(); ++j)
@@ -169,12 +172,12 @@ Eigen::VectorXd CondensedTurns::moved(const Others& others, const Answers& with,
 bool CondensedTurns::solve(const Answers& with, Eigen::VectorXd& gaps) {
   if (!lay_reference(with)) return false;
   const Others turned = others(with);
-  gaps = moved(turned, with, base_, with.given - base_given_);
+  gaps = moved(turned, base_, with.given - base_given_);
   if (refines_) {
     const Eigen::VectorXd less =
         lengths_.cwiseProduct(closed_springs_.cwiseProduct(gaps) - tractions_at(with, gaps));
     const Eigen::VectorXd left = closed_gaps_ - gaps + body_.compliance * less;
-    gaps += moved(turned, with, body_.reference.moved(left), Eigen::VectorXd::Zero(gaps.size()));
+    gaps += moved(turned, body_.reference.moved(left), Eigen::VectorXd::Zero(gaps.size()));
   }
   return gaps.allFinite();
 }

@@ -68,15 +68,17 @@ class CondensedTurns {
   /// Places that are not as in the reference, and the factor for what they exert less, q:
   /// g = h + C_R q with q = less_at(g).
   struct Others {
-    std::vector<Eigen::Index> places, at;  ///< at: their columns of C_R
+    std::vector<Eigen::Index> places, at;   ///< at: their columns of C_R
+    std::vector<Eigen::Index> across;       ///< of the same faces
+    Eigen::VectorXd softer, with_pressure;  ///< than there, with their lengths, Pa
     Eigen::PartialPivLU<Eigen::MatrixXd> factor;
   };
   Others others(const Answers& with) const;
-  /// What a place exerts less than in the reference at such gaps, besides given tractions, N/m.
-  double less_at(const Answers& with, Eigen::Index place,
-                 const Eigen::Ref<const Eigen::VectorXd>& gaps) const;
+  /// What these exert less than in the reference at such gaps, besides given tractions, N/m.
+  Eigen::VectorXd less_at(const Others& others,
+                          const Eigen::Ref<const Eigen::VectorXd>& gaps) const;
   /// From gaps as the reference has them. given: tractions that places exert more than there, Pa.
-  Eigen::VectorXd moved(const Others& others, const Answers& with, Eigen::VectorXd gaps,
+  Eigen::VectorXd moved(const Others& others, Eigen::VectorXd gaps,
                         const Eigen::VectorXd& given) const;
   /// Gaps with such springs; false where these do not hold the body.
   bool solve(const Answers& with, Eigen::VectorXd& gaps);
