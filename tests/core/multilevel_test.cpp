@@ -75,6 +75,29 @@ TEST(MultilevelParallel, SeveralScales) {
   EXPECT_EQ(plate.model.hierarchy().count(), 5U);
 }
 
+/// Scales of a plate of 441 nodes with a crack so many elements long.
+std::size_t scales_with_crack(double elements, ContactLaw law) {
+  CaseSpec spec = plate({0, 0}, {1, 1}, 20, 20);
+  spec.solver.coarsest_nodes = 60;
+  spec.solver.coarsest_touching = 150;
+  spec.solver.coarsest_many_touching = 500;
+  add_crack(spec, {{0.27, 0.52}, {0.27 + 0.05 * elements, 0.52}});
+  spec.cracks.back().contact = {.law = law, .normal_stiffness = 1e4};
+  BoundarySpec bottom = on_side(Side::bottom);
+  bottom.displacement = constant_load(0, 0);
+  spec.boundaries = {bottom};
+  Model model(spec, world(), patchwork(spec));
+  model.build_stiffness();
+  EXPECT_EQ(model.condenses(), model.hierarchy().count() == 1);
+  return model.hierarchy().count();
+}
+
+TEST(MultilevelParallel, LastScaleIsLargerTheMoreFacesTouch) {
+  EXPECT_EQ(scales_with_crack(6.0, ContactLaw::none), 3U);
+  EXPECT_EQ(scales_with_crack(4.0, ContactLaw::frictionless), 2U) << "fewer than nodes / 100";
+  EXPECT_EQ(scales_with_crack(5.0, ContactLaw::frictionless), 1U);
+}
+
 TEST(MultilevelParallel, CoarseStiffnessIsThatOfTheInterpolatedMoves) {
   const Built plate(cracked());
   for (std::size_t k = 1; k < plate.model.hierarchy().count(); ++k) {
