@@ -82,6 +82,7 @@ SolverSpec build_solver(const ConfigNode& root, Problems& problems) {
   table.read("tolerance", solver.tolerance);
   table.read("over_relaxation", solver.over_relaxation);
   table.read("max_iterations", solver.max_iterations);
+  table.read("condensed_nodes", solver.condensed_nodes);
   const bool is_lost = solver.method != SolverMethod::relaxation && solver.over_relaxation != 1.0;
   if (is_lost) {
     const auto& node = *table.find("over_relaxation");

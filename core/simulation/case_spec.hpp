@@ -48,8 +48,9 @@ struct SolverSpec {
   std::int64_t coarsest_nodes = 2000;
   /// The same where faces may touch: what moves all cells at once also condenses the body to them.
   std::int64_t coarsest_touching = 10000;
-  /// The same where faces are many: cracks that may touch have an element for every hundred nodes.
-  std::int64_t coarsest_many_touching = 50000;
+  /// The same, where this is more, where faces are many: at first an element of a crack that may
+  /// touch for every hundred nodes.
+  int condensed_nodes = 50000;
   double tolerance = 1e-8;       ///< relative residual
   double over_relaxation = 1.0;  ///< of the rule, 0 < value < 2; relaxation only
   int max_iterations = 0;        ///< 0: chosen from the size of the problem

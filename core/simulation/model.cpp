@@ -31,7 +31,8 @@ HierarchyShape shape_of(const CaseSpec& spec, const StructuredGrid& grid) {
   if (length == 0.0) return {{}, spec.solver.coarsest_nodes};
   const double faces = length / grid.smallest_side();
   const bool many = nodes_per_face * faces >= double(grid.node_count());
-  return {{}, many ? spec.solver.coarsest_many_touching : spec.solver.coarsest_touching};
+  const std::int64_t few_faces = spec.solver.coarsest_touching;
+  return {{}, many ? std::max<std::int64_t>(few_faces, spec.solver.condensed_nodes) : few_faces};
 }
 
 }  // namespace

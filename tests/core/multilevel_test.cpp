@@ -76,11 +76,11 @@ TEST(MultilevelParallel, SeveralScales) {
 }
 
 /// Scales of a plate of 441 nodes with a crack so many elements long.
-std::size_t scales_with_crack(double elements, ContactLaw law) {
+std::size_t scales_with_crack(double elements, ContactLaw law, int condensed_nodes = 500) {
   CaseSpec spec = plate({0, 0}, {1, 1}, 20, 20);
   spec.solver.coarsest_nodes = 60;
   spec.solver.coarsest_touching = 150;
-  spec.solver.coarsest_many_touching = 500;
+  spec.solver.condensed_nodes = condensed_nodes;
   add_crack(spec, {{0.27, 0.52}, {0.27 + 0.05 * elements, 0.52}});
   spec.cracks.back().contact = {.law = law, .normal_stiffness = 1e4};
   BoundarySpec bottom = on_side(Side::bottom);
@@ -96,6 +96,7 @@ TEST(MultilevelParallel, LastScaleIsLargerTheMoreFacesTouch) {
   EXPECT_EQ(scales_with_crack(6.0, ContactLaw::none), 3U);
   EXPECT_EQ(scales_with_crack(4.0, ContactLaw::frictionless), 2U) << "fewer than nodes / 100";
   EXPECT_EQ(scales_with_crack(5.0, ContactLaw::frictionless), 1U);
+  EXPECT_EQ(scales_with_crack(5.0, ContactLaw::frictionless, 400), 2U) << "too many nodes";
 }
 
 TEST(MultilevelParallel, CoarseStiffnessIsThatOfTheInterpolatedMoves) {

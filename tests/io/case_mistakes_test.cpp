@@ -43,7 +43,8 @@ const Mistake names[] = {
     {"[solver]", "[slover]", "[slover]", "slover", "did you mean \"solver\"?"},
     {"tolerance = 1e-9", "tol = 1e-9", "tol", "solver.tol", "did you mean \"tolerance\"?"},
     {"[solver]\n", "[solver]\nzzz = 1\n", "zzz", "solver.zzz",
-     "allowed are \"method\", \"tolerance\", \"over_relaxation\" and \"max_iterations\""},
+     "allowed are \"method\", \"tolerance\", \"over_relaxation\", \"max_iterations\" and "
+     "\"condensed_nodes\""},
     {"title = \"Plate\"", "young = 1.0", "young = 1.0", "young", "it belongs to [material]"},
     {"name = \"edge\"", "nam = \"edge\"", "nam =", "crack[0].nam", "did you mean \"name\"?"},
     {"traction =", "tracton =", "tracton", "boundary[2].tracton", "did you mean \"traction\"?"},
