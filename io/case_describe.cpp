@@ -125,13 +125,6 @@ std::string growth_text(const GrowthSpec& growth) {
 
 }  // namespace
 
-double length_of(const CrackSpec& crack) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < crack.points.size(); ++i)
-    length += (crack.points[i + 1] - crack.points[i]).norm();
-  return length;
-}
-
 std::string bytes_text(std::int64_t bytes) {
   constexpr std::string_view units[] = {"B", "kB", "MB", "GB", "TB"};
   double value = static_cast<double>(bytes);

@@ -21,9 +21,6 @@ struct CaseSize {
 /// A few lines on sizes, cells, material, cracks, loads, unknowns and memory.
 std::string describe_case(const CaseSpec& spec, const CaseSize& size);
 
-/// A length as the sum of a crack's segments, m.
-double length_of(const CrackSpec& crack);
-
 /// Bytes for people: "1.4 GB".
 std::string bytes_text(std::int64_t bytes);
 

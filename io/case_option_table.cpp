@@ -18,6 +18,17 @@ constexpr Option faces(std::string_view section, std::string_view key, std::stri
   return {.section = section, .key = key, .unit = unit, .range = range, .text = meaning};
 }
 
+/// A whole number that is not required.
+constexpr Option whole(std::string_view section, std::string_view key, OptionRange range,
+                       std::string_view standard, std::string_view meaning) {
+  return {.section = section,
+          .key = key,
+          .kind = integer,
+          .range = range,
+          .standard = standard,
+          .text = meaning};
+}
+
 constexpr std::string_view laws = "none|frictionless|coulomb|cohesive";
 constexpr std::string_view as_in_contact = "As in [contact], for this crack only.";
 
@@ -208,12 +219,7 @@ constexpr Option option_table[] = {
      .shape = box,
      .unit = "m",
      .text = "Box in the body that holds the whole cracks. Without it: the body."},
-    {.section = "crack_field",
-     .key = "seed",
-     .kind = integer,
-     .range = not_negative,
-     .standard = "0",
-     .text = "Start of the random numbers."},
+    whole("crack_field", "seed", not_negative, "0", "Start of the random numbers."),
 
     {.section = "boundary",
      .key = "on",
@@ -272,12 +278,8 @@ constexpr Option option_table[] = {
      .text = "\"prescribed\": the load factors are given. \"critical\": in every step, the load "
              "factor at which the next tip grows; needs a growth criterion, loads proportional to "
              "s, and neither `steps` nor `factors`."},
-    {.section = "loading",
-     .key = "max_events",
-     .kind = integer,
-     .range = from_one,
-     .standard = "500",
-     .text = "Growth events after which a critical loading ends."},
+    whole("loading", "max_events", from_one, "500",
+          "Growth events after which a critical loading ends."),
     {.section = "loading",
      .key = "min_factor",
      .range = {.low = 0.0, .high = 1.0, .low_allowed = false, .high_allowed = false},
@@ -340,12 +342,8 @@ constexpr Option option_table[] = {
      .standard = "\"corrected\"",
      .text = "\"corrected\": the direction of a new segment is corrected until it ends with K_II "
              "near 0. \"explicit\": as the criterion says before the segment is there."},
-    {.section = "growth",
-     .key = "cycles",
-     .kind = integer,
-     .range = from_one,
-     .standard = "200",
-     .text = "Most growth cycles in one load step of a prescribed loading."},
+    whole("growth", "cycles", from_one, "200",
+          "Most growth cycles in one load step of a prescribed loading."),
 
     {.section = "solver",
      .key = "method",
@@ -365,33 +363,17 @@ constexpr Option option_table[] = {
      .range = {.low = 0.0, .high = 2.0, .low_allowed = false, .high_allowed = false},
      .standard = "1.0",
      .text = "Factor on every move of the rule; for method \"relaxation\" only."},
-    {.section = "solver",
-     .key = "max_iterations",
-     .kind = integer,
-     .range = {.low = 0.0, .high = 1e9},
-     .standard = "0",
-     .text = "Most iterations of one solve; 0: chosen from the size of the problem."},
-    {.section = "solver",
-     .key = "condensed_nodes",
-     .kind = integer,
-     .range = {.low = 0.0, .high = 1e9},
-     .standard = "50000",
-     .text = "Grids of so many nodes are condensed to touching faces where these are many: faster "
-             "on few ranks, with more memory on each. Up to 10000 nodes they always are."},
+    whole("solver", "max_iterations", OptionRange{.low = 0.0, .high = 1e9}, "0",
+          "Most iterations of one solve; 0: chosen from the size of the problem."),
+    whole("solver", "condensed_nodes", OptionRange{.low = 0.0, .high = 1e9}, "50000",
+          "Grids of up to so many nodes are condensed to touching faces where these are many (an "
+          "element of an initial crack for every hundred nodes): faster on few ranks, with more "
+          "memory on each. Up to 10000 nodes they always are. Not with cohesive faces."),
 
-    {.section = "output",
-     .key = "every",
-     .kind = integer,
-     .range = from_one,
-     .standard = "1",
-     .text = "Load steps between field files."},
-    {.section = "output",
-     .key = "checkpoint_every",
-     .kind = integer,
-     .range = {.low = 0.0, .high = 1e6},
-     .standard = "10",
-     .text = "Load steps between checkpoints, from which `--restart` goes on; 0: none but the one "
-             "of a run that is asked to stop."},
+    whole("output", "every", from_one, "1", "Load steps between field files."),
+    whole("output", "checkpoint_every", OptionRange{.low = 0.0, .high = 1e6}, "10",
+          "Load steps between checkpoints, from which `--restart` goes on; 0: none but the one "
+          "of a run that is asked to stop."),
     {.section = "output",
      .key = "pictures",
      .kind = boolean,

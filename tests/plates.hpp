@@ -41,6 +41,13 @@ inline CaseSpec plate(const Vec2& lower, const Vec2& upper, int nx, int ny) {
   return spec;
 }
 
+/// The last scale has no more nodes than this, however many faces touch.
+inline void in_scales_of(CaseSpec& spec, std::int64_t nodes) {
+  SolverSpec& solver = spec.solver;
+  solver.coarsest_nodes = solver.coarsest_touching = nodes;
+  solver.condensed_nodes = 0;
+}
+
 inline void add_crack(CaseSpec& spec, std::vector<Vec2> points) {
   const std::string name = "crack" + std::to_string(spec.cracks.size() + 1);
   spec.cracks.push_back({name, std::move(points), 0});

@@ -19,8 +19,7 @@ class FrontFactor::Compliance {
         place_(std::size_t(directions.rows()), -1),
         sum_(Eigen::MatrixXd::Zero(directions.rows(), directions.rows())) {}
 
-  /// Only once.
-  Eigen::MatrixXd sum() {
+  Eigen::MatrixXd sum() && {
     for (std::size_t f = 0; f < passed_.size(); ++f) {
       meet_directions(f);
       if (!passed_[f].directions.empty()) eliminate(f);

@@ -40,6 +40,9 @@ struct CrackSpec {
   ContactSpec contact{};  ///< of its faces, those that it grows included
 };
 
+/// Of its polyline, m.
+double length_of(const CrackSpec& crack);
+
 enum class SolverMethod { relaxation, krylov, multilevel };
 
 struct SolverSpec {

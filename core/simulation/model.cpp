@@ -6,6 +6,7 @@
 #include "core/cracks/level_set.hpp"
 #include "core/cracks/segments.hpp"
 #include "core/mechanics/loaded_pieces.hpp"
+#include "core/simulation/last_scale.hpp"
 #include "core/simulation/state_transfer.hpp"
 
 #include <algorithm>
@@ -19,22 +20,6 @@ namespace {
 
 StructuredGrid grid_of(const DomainSpec& d) { return {d.origin, d.size, d.cells[0], d.cells[1]}; }
 
-/// Where many faces touch, many turns on the whole body cost more than factors of a larger one.
-HierarchyShape shape_of(const CaseSpec& spec, const StructuredGrid& grid) {
-  constexpr double nodes_per_face = 100;
-  double length = 0.0;
-  for (const CrackSpec& crack : spec.cracks) {
-    if (crack.contact.law == ContactLaw::none) continue;
-    for (std::size_t k = 1; k < crack.points.size(); ++k)
-      length += (crack.points[k] - crack.points[k - 1]).norm();
-  }
-  if (length == 0.0) return {{}, spec.solver.coarsest_nodes};
-  const double faces = length / grid.smallest_side();
-  const bool many = nodes_per_face * faces >= double(grid.node_count());
-  const std::int64_t few_faces = spec.solver.coarsest_touching;
-  return {{}, many ? std::max<std::int64_t>(few_faces, spec.solver.condensed_nodes) : few_faces};
-}
-
 }  // namespace
 
 Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner& partitioner)
@@ -42,7 +27,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const Partitioner
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_(shape_of(spec, grid_)) {
+      hierarchy_({{}, most_nodes_of_last_scale(spec)}) {
   place_cracks();
   const auto weights = cell_weights(grid_, registry_.cracks(), spec_.tip_radius);
   mesh_ = LocalMesh(grid_,
@@ -59,7 +44,7 @@ Model::Model(const CaseSpec& spec, Communicator& communicator, const BlockPartit
       communicator_(communicator),
       grid_(grid_of(spec.domain)),
       material_{spec.material.young, spec.material.poisson, spec.domain.plane_strain},
-      hierarchy_(shape_of(spec, grid_)) {
+      hierarchy_({{}, most_nodes_of_last_scale(spec)}) {
   place_cracks();
   mesh_ = LocalMesh(grid_, partition, communicator_.rank());
   build_cells(nullptr);

@@ -83,13 +83,6 @@ CrackRegistry grown(const Model& model, std::mt19937& engine) {
   return registry;
 }
 
-/// The last scale has no more nodes than this, however many faces touch.
-void in_scales_of(CaseSpec& spec, std::int64_t nodes) {
-  SolverSpec& solver = spec.solver;
-  solver.coarsest_nodes = solver.coarsest_touching = nodes;
-  solver.condensed_nodes = 0;
-}
-
 class CarriedCellsParallel : public ::testing::TestWithParam<int> {
  protected:
   static CaseSpec plate_number(int number) {

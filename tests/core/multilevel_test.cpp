@@ -97,6 +97,7 @@ TEST(MultilevelParallel, LastScaleIsLargerTheMoreFacesTouch) {
   EXPECT_EQ(scales_with_crack(4.0, ContactLaw::frictionless), 2U) << "fewer than nodes / 100";
   EXPECT_EQ(scales_with_crack(5.0, ContactLaw::frictionless), 1U);
   EXPECT_EQ(scales_with_crack(5.0, ContactLaw::frictionless, 400), 2U) << "too many nodes";
+  EXPECT_EQ(scales_with_crack(5.0, ContactLaw::cohesive), 2U) << "these do not settle so";
 }
 
 TEST(MultilevelParallel, CoarseStiffnessIsThatOfTheInterpolatedMoves) {

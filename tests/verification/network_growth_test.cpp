@@ -78,11 +78,7 @@ CaseSpec network_of_seed(unsigned seed, Loading loading, Scales scales = Scales:
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
-  if (scales == Scales::three) {
-    SolverSpec& solver = spec.solver;
-    solver.coarsest_nodes = solver.coarsest_touching = 300;
-    solver.condensed_nodes = 0;
-  }
+  if (scales == Scales::three) in_scales_of(spec, 300);
   spec.load_factors.clear();
   for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;
