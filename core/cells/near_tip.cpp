@@ -12,8 +12,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double largest_bend = 110.0 / 180.0 * pi;
 /// rad from the crack's prolongation: a place farther round is taken for one on or close to a face
-/// of the crack. Growth by the hoop stress (70.5 degrees at most) that turns to what it joins (60
-/// more) does not come so far.
+/// of the crack, if no place beside it tells. Growth by the hoop stress (70.5 degrees at most) that
+/// turns to what it joins (60 more) does not come so far.
 constexpr double at_face = 135.0 / 180.0 * pi;
 constexpr double straight_on = 1e-9;  ///< rad: bends less than this do not show
 }  // namespace
@@ -106,18 +106,32 @@ double TipFrame::angle(const Vec2& x, FaceSide side) const {
 
 TipPolar TipFrame::polar(const Vec2& x, FaceSide side) const {
   const Vec2 d = local(x);
+  const Bend b = bend(d.norm());
+  return polar_at(x, d.norm(), b, angle_from_crack(d, b, side));
+}
+
+TipPolar TipFrame::polar_beside(const Vec2& x, const Vec2& inside) const {
+  const Vec2 d = local(x), from = local(inside);
+  const Bend b = bend(d.norm());
+  double g = angle_from_crack(d, b, FaceSide::none);
+  const double seen_from = angle_from_crack(from, bend(from.norm()), FaceSide::none);
+  // a convex piece is seen from the tip within half a turn
+  if (g - seen_from > pi) g -= 2 * pi;
+  if (g - seen_from < -pi) g += 2 * pi;
+  return polar_at(x, d.norm(), b, g);
+}
+
+TipPolar TipFrame::polar_at(const Vec2& x, double r, const Bend& b, double g) const {
   TipPolar polar;
-  polar.r = d.norm();
-  if (polar.r == 0.0) return polar;
-  const Bend b = bend(polar.r);
-  const double g = angle_from_crack(d, b, side);
-  const Vec2 radial = (x - tip()) / polar.r;
+  polar.r = r;
+  if (r == 0.0) return polar;
+  const Vec2 radial = (x - tip()) / r;
   const bool bent = b.angle != 0.0 || b.slope != 0.0;  // else sine and cosine do not count
   const double sine = bent ? std::sin(g) : 0.0, cosine = bent ? std::cos(g) : 0.0;
   polar.theta = g + b.angle * (1 + cosine) / 2;
   const double by_g = 1 - b.angle * sine / 2, by_bend = (1 + cosine) / 2;
   polar.grad_r = radial;
-  polar.grad_theta = by_g / polar.r * turned_left(radial) + b.slope * (by_bend - by_g) * radial;
+  polar.grad_theta = by_g / r * turned_left(radial) + b.slope * (by_bend - by_g) * radial;
   return polar;
 }
 

@@ -57,6 +57,9 @@ class TipFrame {
   /// x in m. `side` says to which face a point on (or close to) the crack belongs; plus is on the
   /// left of the way towards the tip.
   TipPolar polar(const Vec2& x, FaceSide side = FaceSide::none) const;
+  /// As seen from a place inside the same convex piece of material (m): on a face of the crack, and
+  /// on one of another that ends at this tip, the angle goes on from that of the place.
+  TipPolar polar_beside(const Vec2& x, const Vec2& inside) const;
   /// Angle from the tangent, from -pi + bend to pi + bend: it goes on past pi up to the faces of a
   /// bent crack, so that fields continued by it jump across the crack and nowhere else.
   double angle(const Vec2& x, FaceSide side = FaceSide::none) const;
@@ -74,6 +77,7 @@ class TipFrame {
   Bend bend(double r) const;
   /// Angle from the crack's own direction at distance r, -pi to pi; beyond it on the given side.
   double angle_from_crack(const Vec2& local, const Bend& bend, FaceSide side) const;
+  TipPolar polar_at(const Vec2& x, double r, const Bend& bend, double angle_from_crack) const;
 
   std::vector<Vec2> path_;
   std::vector<double> radius_;  ///< distance of every path point from the tip

@@ -99,12 +99,9 @@ void PartBasis::for_each_function(const Vec2& p, const Vec2* inside, const Visit
   for (const TipShape& tip : tips_) {
     if (tip.zone != known) {
       known = tip.zone;
-      FaceSide side = FaceSide::none;
-      if (inside) {
-        const bool above = known->frame.polar(position(*inside)).theta > 0;
-        side = above ? FaceSide::plus : FaceSide::minus;
-      }
-      f = near_tip_functions(known->frame.polar(position(p), side));
+      const TipFrame& frame = known->frame;
+      f = near_tip_functions(inside ? frame.polar_beside(position(p), position(*inside))
+                                    : frame.polar(position(p)));
     }
     Eigen::Vector4d values;
     Eigen::Matrix<double, 2, 4> gradients;

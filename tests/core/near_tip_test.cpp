@@ -111,6 +111,35 @@ TEST_P(NearTipTest, AnglesOnTheFacesArePlusAndMinusPi) {
   }
 }
 
+/// Convex pieces round the tip, as faces cut them off: functions go on from inside to the rim, on
+/// faces of another crack that ends here close to this one, too.
+TEST_P(NearTipTest, GoOnFromInsideAPiece) {
+  constexpr double r = 0.3, nearest = 1e-9;  // where all these cracks are straight
+  const auto at = [&](double angle) {
+    const Vec2 along = frame_.tangent();
+    return Vec2(frame_.tip() +
+                r * (std::cos(angle) * along + std::sin(angle) * turned_left(along)));
+  };
+  for (const double other : {-0.99 * pi, -0.8 * pi, 0.1 * pi, 0.6 * pi, 0.8 * pi, 0.99 * pi}) {
+    // from where the other crack is to either face of this one, as far as a convex piece reaches
+    for (const double face : {-pi, pi}) {
+      const double width = std::clamp(face - other, -0.95 * pi, 0.95 * pi);
+      const double inwards = width > 0 ? nearest : -nearest;
+      const auto beside = near_tip_functions(frame_.polar(at(other + inwards))).value;
+      const auto beyond = near_tip_functions(frame_.polar(at(other + width - inwards))).value;
+      for (const double part : {0.1, 0.5, 0.9}) {
+        const Vec2 inside = at(other + part * width);
+        const auto here = near_tip_functions(frame_.polar_beside(at(other), inside)).value;
+        const auto there = near_tip_functions(frame_.polar_beside(at(other + width), inside)).value;
+        for (std::size_t l = 0; l < 4; ++l) {
+          EXPECT_NEAR(here[l], beside[l], 1e-8);
+          EXPECT_NEAR(there[l], beyond[l], 1e-8);
+        }
+      }
+    }
+  }
+}
+
 TEST_P(NearTipTest, PlusIsOnTheLeftOfTheWayToTheTip) {
   for (std::size_t k = 0; k + 1 < path().size(); ++k) {
     const Vec2 way = path()[k] - path()[k + 1];

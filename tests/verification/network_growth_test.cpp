@@ -32,7 +32,9 @@ bool is_sound(const CaseSpec& spec) {
 /// Which way the top moves, and what faces do that touch.
 enum class Loading { tension, tension_with_contact, compression };
 
-enum class Scales { one, three };
+/// On three scales nearly all cells of a dense network lie in windows; whatever takes hundreds of
+/// turns where faces touch is for one scale, the body condensed to them.
+enum class Scales { one, three, three_and_few_cracks };
 
 using Network = std::tuple<unsigned, Loading, Scales>;  ///< seed
 
@@ -71,14 +73,14 @@ CaseSpec network_of_seed(unsigned seed, Loading loading, Scales scales = Scales:
   // small grids where faces touch, since every cycle takes many solves
   const bool touching = loading != Loading::tension;
   const int cells = touching ? 20 + int(engine() % 11) : 30 + int(engine() % 21);
-  const int count = 5 + int(engine() % 56);
+  const int count = 5 + int(engine() % (scales == Scales::three_and_few_cracks ? 8 : 56));
   CaseSpec spec = random_network(seed, cells, count, loading);
   spec.loading.critical = seed % 2 == 0;
   spec.loading.max_events = 400;
   spec.loading.min_factor = 1e-6;
   spec.growth.fixed_step = seed % 3 == 0;
   spec.growth.step_length = {1.5, spec.growth.fixed_step ? 1.5 : 4.0};
-  if (scales == Scales::three) in_scales_of(spec, 300);
+  if (scales != Scales::one) in_scales_of(spec, 300);
   spec.load_factors.clear();
   for (int k = 1; k <= 20; ++k) spec.load_factors.push_back(0.3 * k);
   return spec;
@@ -233,7 +235,8 @@ INSTANTIATE_TEST_SUITE_P(Tension, SlowNetworkGrowth,
                          Combine(Range(2U, 43U), Values(Loading::tension), three_scales));
 INSTANTIATE_TEST_SUITE_P(Contact, SlowNetworkGrowth, Combine(Range(2U, 101U), touching, one_scale));
 INSTANTIATE_TEST_SUITE_P(ContactOnScales, SlowNetworkGrowth,
-                         Combine(Range(5U, 101U, 5U), touching, three_scales));
+                         Combine(Range(5U, 101U, 15U), touching,
+                                 Values(Scales::three_and_few_cracks)));
 
 /// However quietly the faces come to rest: what is taken for equilibrium is one of forces, too.
 TEST(ContactOfNetworks, WhatIsTakenIsExact) {
