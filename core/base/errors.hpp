@@ -44,6 +44,12 @@ class ContactError : public SolveError {
   using SolveError::SolveError;
 };
 
+/// There is no equilibrium: a part of the body slides off on its faces, and nothing stops it.
+class SlidesOff : public ContactError {
+ public:
+  using ContactError::ContactError;
+};
+
 /// A file could not be read or written (exit status 4).
 class IoError : public std::runtime_error {
  public:

@@ -61,6 +61,12 @@ SolverReport settle(Model& model, const EquilibriumSolver& solver, double load_f
     if (crept.found) result.before_creep = std::move(loaded);
     crept_turns += crept.turns + crept.steps;
     note(crept.unbalanced);
+    if (crept.slides_off) {
+      std::ostringstream text;
+      text << "at load factor " << load_factor
+           << " a part of the body slides off, and nothing stops it.";
+      throw SlidesOff(text.str());
+    }
     return crept.found;
   };
   // loose bodies can run so far that no solve is exact any more

@@ -53,11 +53,23 @@ void ContactSolves::answer(const std::vector<ContactAnswer>& answers) {
 }
 
 double ContactSolves::held_back(const std::vector<double>& move) const {
-  if (!model_.has_weak_springs() || slowest_.scale == 0.0) return 0.0;
+  if (!model_.has_weak_springs()) return 0.0;
+  const double all = loads();
+  if (all == 0.0) return 0.0;
   const CellStiffness& cells = model_.stiffness();
   std::vector<double> weak(std::size_t(cells.count()), 0.0);
   cells.add_spring_forces(move, weak);
-  return std::sqrt(cells.dot(weak, weak)) / slowest_.scale;
+  return std::sqrt(cells.dot(weak, weak)) / all;
+}
+
+double ContactSolves::loads() const {
+  const CellStiffness& cells = model_.stiffness();
+  std::vector<double> forces = given_.external;
+  cells.subtract_held(given_.held, forces);
+  cells.clear_held(forces);
+  const double sum = cells.dot(forces, forces);
+  // nothing is loaded: what the faces have locked in
+  return sum > 0.0 ? std::sqrt(sum) : slowest_.scale;
 }
 
 double ContactSolves::rounding(double largest) const {

@@ -21,8 +21,8 @@ class ContactSolves {
   void answer(const std::vector<ContactAnswer>& answers);
 
   std::vector<ContactGap> gaps() const;
-  /// Forces that weak springs have added in the last solve, as a part of all forces: bodies may not
-  /// have gone far enough yet.
+  /// Forces that weak springs have added on this way, as a part of those of the loads: bodies may
+  /// not have gone far enough yet.
   double held_back(const std::vector<double>& move) const;
   /// How well tractions can be told at all, as a part of the largest: gaps are differences of
   /// displacements, which are large where loose bodies have gone far. Collective.
@@ -44,6 +44,9 @@ class ContactSolves {
   Forces& given_;
   SolverReport slowest_;
   int count_ = 0;
+
+  /// Forces of the loads, as prescribed displacements exert them on what is held; N per metre.
+  double loads() const;
 };
 
 }  // namespace cdca

@@ -52,7 +52,7 @@ DragStep step(Model& model, ContactSolves& solves, Forces& given, const FaceTurn
     FaceBalance::Found found{.found = end == FaceTurns::End::balanced};
     if (end == FaceTurns::End::jammed) {
       found = balance(model, solves, given, rule, limits_go_along);
-      turns.take(found.unbalanced, found.scale);
+      turns.take(found.unbalanced);
     }
     return {found.found,        turns.count(),  found.steps,
             turns.limits_off(), turns.pulled(), turns.limits_agree()};
@@ -75,6 +75,14 @@ double next_ahead(double ahead, double off, double off_before) {
   if (change > farther) return 1.0;
   const double next = change > nearer ? 2 * ahead : ahead;
   return std::max(1.0, std::min({most, next, most_off / off}));
+}
+
+/// How far the farthest place has gone since, m. Collective.
+double way_from(const std::vector<double>& before, const Model& model) {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    farthest = std::max(farthest, std::abs(model.state()[k] - before[k]));
+  return model.communicator().max(farthest);
 }
 
 }  // namespace
@@ -110,6 +118,8 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
       continue;
     }
     const bool rests = now.pulled <= at_rest;
+    crept.slides_off = !rests && way_from(first, model) > model.grid().size().maxCoeff();
+    if (crept.slides_off) break;
     crept.found = rests && close == enough && now.limits_agree;
     if (crept.found) break;
     ahead = rests ? next_ahead(ahead, now.limits_off, off_before) : 1.0;

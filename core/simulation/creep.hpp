@@ -11,6 +11,7 @@ struct Crept {
   int turns = 0;
   int steps = 0;            ///< of all faces at once, between turns
   double unbalanced = 1.0;  ///< tractions, as a part of the largest
+  bool slides_off = false;  ///< a part has gone as far as the body is long, and goes on
 };
 
 /// Where faces lose their hold, the next equilibrium may be far away, and with friction it depends
@@ -18,8 +19,8 @@ struct Crept {
 /// every step is a balance with the drag, which is easier to find the firmer the drag is. Within a
 /// step friction keeps to the limits that pressures set before it: then it is one minimum to find.
 /// Ends where drag takes less than 1e-6 of all forces, with tractions balanced to `enough` of the
-/// largest; where that is not found, states and displacements are what they were. Collective.
-/// most: turns, about.
+/// largest; where that is not found, or a part slides off and nothing stops it, states and
+/// displacements are what they were. Collective. most: turns, about.
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough, int most);
 
 }  // namespace cdca

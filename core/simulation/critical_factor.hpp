@@ -27,6 +27,8 @@ class CriticalFactor {
   /// Tells the greatest index there; 0 if no tip is opened.
   void tell(double index);
 
+  /// The next trial goes on from loads at which nothing grows.
+  bool goes_beyond() const { return !last_trial_ && short_of_ && next_ > short_of_->factor; }
   /// The body passes through the last trial, whatever the answer: it lies on the way there.
   bool on_the_way() const { return !virgin_ && !last_trial_ && !(short_of_ && beyond_); }
   /// The answer is the factor of the last growth: the body has gone nowhere from there.

@@ -15,6 +15,8 @@ namespace {
 
 /// Steps of the load longer than this part of it begin at a stop.
 constexpr double long_way = 0.1;
+/// Index of loads under which a part slides off: if anything grows before, it is at less load.
+constexpr double sliding_off = 2.0;
 
 /// An equilibrium found at factor 1, at another factor.
 void scale(Model& model, Equilibrium& equilibrium, std::vector<TipAssessment>& tips,
@@ -66,9 +68,11 @@ class Stop {
     state_ = model_.state();
   }
 
-  /// Faces are what they were here; displacements stay, as a start.
+  /// Faces and displacements are what they were here: a loose body would stay where a trial has
+  /// left it.
   void go_back() {
     model_.remember(contact_);
+    model_.state() = state_;
     model_.set_origin(state_);
     model_.renew_stiffness();
   }
@@ -101,9 +105,14 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
     }
     if (round > 0) stop->go_back();
     found.factor = next;
-    found.equilibrium = solve_recorded(model, solver, next, recorder);
-    found.tips = criterion.assess(model, next);
-    search.tell(greatest_index(found.tips));
+    try {
+      found.equilibrium = solve_recorded(model, solver, next, recorder);
+      found.tips = criterion.assess(model, next);
+      search.tell(greatest_index(found.tips));
+    } catch (const SlidesOff&) {
+      if (!search.goes_beyond()) throw;
+      search.tell(sliding_off);
+    }
   }
   if (!search.ended()) {
     throw ContactError(

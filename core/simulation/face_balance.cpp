@@ -76,7 +76,6 @@ FaceBalance::Found FaceBalance::find() {
   // with drag, the next step has springs of its own
   if (!drags()) model_.renew_stiffness(weak_);
   solves_.set_forces_of_faces();
-  if (scale_ > 0.0) now_.scale = scale_;
   return now_;
 }
 
@@ -92,7 +91,7 @@ void FaceBalance::go_condensed() {
   solves_.answer(closed);
   model_.renew_stiffness(weak_);
   solves_.once({});
-  scale_ = solves_.slowest().scale;
+  condensed_ = true;
   const auto closed_gaps = solves_.gaps();
   FacesOfBody& condensed = model_.condensed(closed);
   const double left_before = left_, unbalanced_before = now_.unbalanced;
@@ -232,10 +231,8 @@ void FaceBalance::judge(const std::vector<FaceTraction>& tractions) {
   if (drags()) return;
   std::vector<double> move = state;
   for (std::size_t k = 0; k < state.size(); ++k) move[k] -= given_.anchor[k];
-  double pulled = solves_.held_back(move);
-  // closed faces that exert what others do count as forces, too, and are much larger than the loads
-  if (scale_ > 0.0) pulled *= solves_.slowest().scale / scale_;
-  const bool cheap = scale_ > 0.0 && rounds_ < most_rounds;
+  const double pulled = solves_.held_back(move);
+  const bool cheap = condensed_ && rounds_ < most_rounds;
   if (now_.found && pulled > (cheap ? pulled_at_most : 1.0) * rule_.enough) {
     anchored_anew_ = true;
     given_.anchor = state;

@@ -32,7 +32,6 @@ class FaceBalance {
     /// Each with springs of its own; all turns of faces on the condensed body from one place are
     /// one.
     int steps = 0;
-    double scale = 0.0;  ///< of the loads, without what faces exert that are held; 0: not known
   };
   /// Leaves springs, states and limits of that balance, or of where faces were nearest to it.
   /// Collective.
@@ -77,7 +76,7 @@ class FaceBalance {
   double least_ = 1.0;
   int restarts_ = 0;
   bool gave_up_ = false;
-  double scale_ = 0.0;           ///< of the loads; 0: not known
+  bool condensed_ = false;       ///< the last solve was for the condensed body
   int rounds_ = 0;               ///< with the condensed body
   bool anchored_anew_ = true;    ///< weak springs hold loose bodies where they have come to now
   std::vector<double> nearest_;  ///< state

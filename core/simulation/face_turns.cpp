@@ -78,13 +78,11 @@ void FaceTurns::begin_again() {
   cut_short_ = 0;
 }
 
-void FaceTurns::take(double unbalanced, double scale) {
+void FaceTurns::take(double unbalanced) {
   const auto change = model_.contact().respond(solves_.gaps(), model_.contact().limits());
   unbalanced_ = unbalanced;
   limits_off_ = change.largest > 0.0 ? change.unbalanced / change.largest : 0.0;
   pulled_ = solves_.held_back(from_anchor());
-  // faces that are held exert much more than the loads
-  if (scale > 0.0) pulled_ *= solves_.slowest().scale / scale;
   balanced_to_ = std::max(rule_.enough, solves_.rounding(change.largest));
 }
 

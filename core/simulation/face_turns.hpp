@@ -38,8 +38,7 @@ class FaceTurns {
   /// Springs are those of the faces as they are; after others have moved the model.
   void begin_again();
   /// Others have moved the model to where tractions are unbalanced by this part of the largest.
-  /// scale: of the loads; 0: that of the last solve.
-  void take(double unbalanced, double scale);
+  void take(double unbalanced);
 
   int count() const { return count_; }
   void add_to_count(int steps) { count_ += steps; }

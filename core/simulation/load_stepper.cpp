@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace cdca {
 
@@ -16,7 +17,6 @@ namespace {
 /// Tips whose index differs by less than this grow together, whatever the rank count.
 constexpr double equal_index = 1e-5;
 constexpr int most_halvings = 3;  ///< of a load step whose contact does not settle
-const char* const cut_apart = "growth has cut the body apart between its loaded boundaries.";
 
 /// A difference between the copies of the registry is a bug that would spoil all that follows.
 void compare_registries(const Model& model) {
@@ -115,6 +115,24 @@ Equilibrium solve_grown(Model& model, const EquilibriumSolver& solver, double fa
   return solve_recorded(model, solver, factor, recorder);
 }
 
+/// Why a run ends as separated.
+struct Separation {
+  bool is_there = false;
+  std::string why = "growth has cut the body apart between its loaded boundaries.";
+
+  /// The equilibrium that `find` returns; nothing, and a separation, where a part slides off.
+  template <class Find>
+  auto unless_it_slides_off(const Find& find) -> decltype(find()) {
+    try {
+      return find();
+    } catch (const SlidesOff& error) {
+      is_there = true;
+      why = error.what();
+      return {};
+    }
+  }
+};
+
 /// The first load step that is left to be done: the case may have other steps now than it had.
 std::size_t next_step(const std::vector<double>& factors, const Progress& at) {
   if (at.steps == 0 && at.cycles == 0) return 0;
@@ -134,12 +152,16 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
     StepResult result{at.steps + 1, spec.load_factors[k], at.cycles,
                       k + 1 == spec.load_factors.size()};
     compare_registries(model);
-    Equilibrium equilibrium =
-        reach(model, *solver, at.load_factor, result.load_factor, most_halvings, recorder, energy);
+    Separation separation;
+    Equilibrium equilibrium = separation.unless_it_slides_off([&] {
+      return reach(model, *solver, at.load_factor, result.load_factor, most_halvings, recorder,
+                   energy);
+    });
     at.load_factor = result.load_factor;
     note_fragments(model, result.step, 0);
-    auto tips = criterion.assess(model, result.load_factor);
-    bool separated = false;
+    bool& separated = separation.is_there;
+    std::vector<TipAssessment> tips;
+    if (!separated) tips = criterion.assess(model, result.load_factor);
     for (int& cycle = result.growth_cycles; criterion.grows() && !separated;) {
       if (greatest_index(tips) < 1.0 - equal_index) break;
       if (cycle == spec.growth.cycles) {
@@ -152,28 +174,29 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
       advance(model, growth.increments, result.step, ++cycle);
       separated = at.joined && !model.joins_loaded_boundaries();
       if (!separated) {
-        equilibrium = solve_grown(model, *solver, result.load_factor, growth, recorder);
+        equilibrium = separation.unless_it_slides_off(
+            [&] { return solve_grown(model, *solver, result.load_factor, growth, recorder); });
         // faces that might have held the parts together may have opened
-        separated = at.joined && !model.joins_loaded_boundaries();
+        separated = separated || (at.joined && !model.joins_loaded_boundaries());
       }
       note_fragments(model, result.step, cycle);
-      if (separated) {
-        equilibrium = unloaded(model);
-        energy.broken();
-        tips.clear();
-        break;
-      }
+      if (separated) break;
       energy.new_cracks(model, equilibrium);
       accept_contact(model, Model::Since::other_cracks, energy);
       tips = criterion.assess(model, result.load_factor);
       at.cycles = cycle;
       if (recorder.rest(model, energy, at)) return;
     }
+    if (separated) {
+      equilibrium = unloaded(model);
+      energy.broken();
+      tips.clear();
+      result.last = true;
+    }
     recorder.cycle(model, result.step, result.growth_cycles, tips, {});
     if (separated) {
       note(model, EventKind::separated, result.step, result.growth_cycles);
-      recorder.set_status("separated", cut_apart);
-      result.last = true;
+      recorder.set_status("separated", separation.why);
     }
     recorder.step(model, result, equilibrium, energy, tips);
     if (separated) return;
@@ -192,19 +215,22 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
   energy.let_cracks_grow();  // as they had where a run goes on
   for (int event = at.steps + 1;; ++event) {
     compare_registries(model);
-    bool separated = at.joined && !model.joins_loaded_boundaries();
+    Separation separation{at.joined && !model.joins_loaded_boundaries()};
+    bool& separated = separation.is_there;
     CriticalState now;
     if (!separated) {
-      now = find_critical(model, *solver, criterion, {at.load_factor, at.first_factor, energy},
-                          recorder);
-      separated = at.joined && !model.joins_loaded_boundaries();
+      now = separation.unless_it_slides_off([&] {
+        return find_critical(model, *solver, criterion, {at.load_factor, at.first_factor, energy},
+                             recorder);
+      });
+      separated = separated || (at.joined && !model.joins_loaded_boundaries());
     }
     note_fragments(model, event, 0);
     if (separated) {
       const Equilibrium nothing = unloaded(model);
       energy.broken();
       note(model, EventKind::separated, event, 0);
-      recorder.set_status("separated", cut_apart);
+      recorder.set_status("separated", separation.why);
       recorder.step(model, {event, 0.0, 0, true}, nothing, energy, {});
       return;
     }
