@@ -5,6 +5,7 @@
 #include "core/simulation/critical_factor.hpp"
 #include "core/simulation/recorded_solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -68,11 +69,15 @@ class Stop {
     state_ = model_.state();
   }
 
-  /// Faces and displacements are what they were here: a loose body would stay where a trial has
-  /// left it.
-  void go_back() {
+  /// Faces are what they were here. Displacements are in proportion between those here and of the
+  /// trial, at the factor that it had: a loose body stays where it is at the start.
+  void go_back(double tried, double next) {
+    const double way = tried - factor_;
+    const double share = way == 0.0 ? 1.0 : std::clamp((next - factor_) / way, 0.0, 1.0);
+    std::vector<double>& start = model_.state();
+    for (std::size_t k = 0; k < start.size(); ++k)
+      start[k] = state_[k] + share * (start[k] - state_[k]);
     model_.remember(contact_);
-    model_.state() = state_;
     model_.set_origin(state_);
     model_.renew_stiffness();
   }
@@ -103,7 +108,7 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
     } else if (round > 0 && search.on_the_way() && far) {
       stop->move_to(found.equilibrium, found.factor);
     }
-    if (round > 0) stop->go_back();
+    if (round > 0) stop->go_back(found.factor, next);
     found.factor = next;
     try {
       found.equilibrium = solve_recorded(model, solver, next, recorder);

@@ -21,7 +21,7 @@ constexpr int more_steps = 2;
 /// Rounds with the condensed body from where loose bodies have gone, and what weak springs may add
 /// to the forces after these, as a part of what is enough: their way counts in energies, too.
 constexpr int most_rounds = 4;
-constexpr double pulled_at_most = 1e-2;
+constexpr double pulled_at_most = 0.1;
 constexpr double agreeing = 1e-3, of_unbalanced = 1e-2;  ///< limits of friction and pressures
 constexpr double nearly = 1e-4;  ///< balanced: solves are exact from here on
 /// Of a solve's tolerance: it ends where rounding ends it. A solve that begins far away leaves more
