@@ -22,7 +22,7 @@ ContactSpec rough(double friction, double h) {
 
 /// A plate on a firm ground, pressed down by 1. A crack from its left side, that rises by 0.7 in 1,
 /// has nearly cut it.
-CaseSpec nearly_cut(double friction) {
+CaseSpec nearly_cut(double friction, bool on_scales = false) {
   constexpr int cells = 20;
   CaseSpec spec = plate({0, 0}, {1, 1}, cells, cells);
   spec.solver.tolerance = 1e-10;
@@ -32,12 +32,13 @@ CaseSpec nearly_cut(double friction) {
   spec.boundaries = {top, bottom};
   add_crack(spec, {{0, 0.2}, {0.8, 0.76}});
   spec.cracks.back().contact = rough(friction, 1.0 / cells);
+  if (on_scales) in_scales_of(spec, 100);
   return spec;
 }
 
 /// The same, and the crack has gone straight on to the right side.
-std::unique_ptr<Model> cut(double friction) {
-  auto model = built(nearly_cut(friction));
+std::unique_ptr<Model> cut(double friction, bool on_scales) {
+  auto model = built(nearly_cut(friction, on_scales));
   find_equilibrium(*model, *make_solver(*model), 1.0);
   CrackRegistry registry = model->registry();
   const Vec2 tip = registry.cracks()[0].end_point(1);
@@ -47,22 +48,26 @@ std::unique_ptr<Model> cut(double friction) {
   return model;
 }
 
-TEST(LoosePart, SlidesOffWhereFrictionIsLessThanTheSlope) {
-  for (const double friction : {0.0, 0.3, 0.65}) {
-    const auto model = cut(friction);
-    EXPECT_THROW(find_equilibrium(*model, *make_solver(*model), 1.0), SlidesOff) << friction;
+TEST(LoosePartParallel, SlidesOffWhereFrictionIsLessThanTheSlope) {
+  for (const bool on_scales : {false, true}) {
+    for (const double friction : {0.0, 0.3, 0.65}) {
+      const auto model = cut(friction, on_scales);
+      EXPECT_THROW(find_equilibrium(*model, *make_solver(*model), 1.0), SlidesOff) << friction;
+    }
   }
 }
 
-TEST(LoosePart, RestsWhereFrictionIsMore) {
-  for (const double friction : {0.75, 1.0}) {
-    const auto model = cut(friction);
-    const Equilibrium e = find_equilibrium(*model, *make_solver(*model), 1.0);
-    double pressed = 0.0;
-    for (const ContactPatch& p : model->contact().patches()) pressed += p.length * p.now.normal;
-    // the weight on the slope, N = cos a
-    EXPECT_NEAR(pressed, -1.0 / std::hypot(1.0, 0.7), 1e-3) << friction;
-    EXPECT_LT(e.strain_energy, 2 * 0.5 / 1000);
+TEST(LoosePartParallel, RestsWhereFrictionIsMore) {
+  for (const bool on_scales : {false, true}) {
+    for (const double friction : {0.75, 1.0}) {
+      const auto model = cut(friction, on_scales);
+      const Equilibrium e = find_equilibrium(*model, *make_solver(*model), 1.0);
+      double pressed = 0.0;
+      for (const ContactPatch& p : model->contact().patches()) pressed += p.length * p.now.normal;
+      // the weight on the slope, N = cos a
+      EXPECT_NEAR(pressed, -1.0 / std::hypot(1.0, 0.7), 1e-3) << friction;
+      EXPECT_LT(e.strain_energy, 2 * 0.5 / 1000);
+    }
   }
 }
 
@@ -81,7 +86,7 @@ Summary run(const CaseSpec& spec) {
   return run_simulation(spec, "test", world(), world_partitioner(), {});
 }
 
-TEST(LoosePart, EndsARunAsSeparatedWhenItSlidesOff) {
+TEST(LoosePartParallel, EndsARunAsSeparatedWhenItSlidesOff) {
   for (const bool critical : {false, true}) {
     const Summary s = run(growing(nearly_cut(0.5), critical));
     EXPECT_EQ(s.status, "separated");
@@ -93,7 +98,7 @@ TEST(LoosePart, EndsARunAsSeparatedWhenItSlidesOff) {
 
 /// The search for the next growth looks at much higher loads, in vain. There the chip that has come
 /// off the rim moves, but this has not happened to it.
-TEST(LoosePart, IsWhereItWasAfterASearchInVain) {
+TEST(LoosePartParallel, IsWhereItWasAfterASearchInVain) {
   CaseSpec spec = plate({0, 0}, {0.56, 1.25}, 22, 29);
   spec.solver.tolerance = 1e-8;
   BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
