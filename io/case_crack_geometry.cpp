@@ -110,9 +110,10 @@ class GeometryCheck {
       const double outside = std::max((low - at).maxCoeff(), (at - high).maxCoeff());
       if (outside <= tolerance_) continue;
       add(i, k,
-          fmt::format("The crack \"{}\" reaches {}, which is outside of the body; allowed are "
-                      "points from {} to {}.",
-                      cracks_[i].name, text_of(at), text_of(low), text_of(high)));
+          fmt::format(
+              "The crack \"{}\" reaches {}, which is {:.3g} m outside of the body; allowed are "
+              "points from {} to {}.",
+              cracks_[i].name, text_of(at), outside, text_of(low), text_of(high)));
     }
   }
 

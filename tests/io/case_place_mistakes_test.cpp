@@ -31,7 +31,7 @@ bool says(const Problem& problem, const std::string& part) {
 TEST(CaseFileCrack, OutsideOfTheBody) {
   const auto problem = crack_problem("[[0.0, 2.0], [2.0001, 2.0]]");
   EXPECT_EQ(problem.key, "crack[0].points[1]");
-  EXPECT_TRUE(says(problem, "\"edge\" reaches [2.0001, 2], which is outside of the body"));
+  EXPECT_TRUE(says(problem, "\"edge\" reaches [2.0001, 2], which is 0.0001 m outside of the body"));
   EXPECT_TRUE(problems_of(changed(plate, "[[0.0, 2.0]", "[[-1e-10, 2.0]")).empty());  // rounding
   const auto by_center = problems_of(changed(plate, "length = 0.4", "length = 1.4"));
   ASSERT_EQ(by_center.size(), 1u);
