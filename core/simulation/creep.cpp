@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cdca {
 
@@ -98,7 +99,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
   const std::vector<double> first = model.state();
   Crept crept;
   double drag = at_first, close = roughly;
-  double ahead = 1.0, off_before = 1.0;
+  double ahead = 1.0, off_before = 1.0, pulled_before = 0.0;
   bool limits_go_along = false;
   int in_a_row = 0;
   model.hold_all_bodies(true);
@@ -118,7 +119,9 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
       continue;
     }
     const bool rests = now.pulled <= at_rest;
-    crept.slides_off = !rests && way_from(first, model) > model.grid().size().maxCoeff();
+    // less drag, and as much to pull: nothing stops it
+    const bool goes_on = !rests && now.pulled > 0.5 * std::exchange(pulled_before, now.pulled);
+    crept.slides_off = goes_on && way_from(first, model) > model.grid().size().maxCoeff();
     if (crept.slides_off) break;
     crept.found = rests && close == enough && now.limits_agree;
     if (crept.found) break;

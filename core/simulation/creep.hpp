@@ -11,7 +11,8 @@ struct Crept {
   int turns = 0;
   int steps = 0;            ///< of all faces at once, between turns
   double unbalanced = 1.0;  ///< tractions, as a part of the largest
-  bool slides_off = false;  ///< a part has gone as far as the body is long, and goes on
+  /// A part has gone as far as the body is long, and is pulled no less with less drag.
+  bool slides_off = false;
 };
 
 /// Where faces lose their hold, the next equilibrium may be far away, and with friction it depends
