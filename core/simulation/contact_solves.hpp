@@ -38,15 +38,16 @@ class ContactSolves {
   void set_forces_of_faces();
 
  private:
+  /// Forces of the loads, and those with which prescribed displacements act on the cells beside
+  /// them, N per metre of thickness; where there are none, of the faces.
+  double loads() const;
+
   Model& model_;
   const EquilibriumSolver& solver_;
   double load_factor_;
   Forces& given_;
   SolverReport slowest_;
   int count_ = 0;
-
-  /// Forces of the loads, as prescribed displacements exert them on what is held; N per metre.
-  double loads() const;
 };
 
 }  // namespace cdca

@@ -94,7 +94,7 @@ Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, doubl
   constexpr double at_first = 1e-2, firmest = 1e4;
   constexpr double less = 0.4, more = 5;        // drag after steps that succeed, and that do not
   constexpr double roughly = 1e-5, part = 0.1;  // of forces, on the way
-  constexpr double at_rest = 1e-6;              // forces that drag takes, as a part of all
+  constexpr double at_rest = 1e-6;              // what drag takes, as a part of the loads
   const Model::ContactMemory first_memory = model.contact_memory();
   const std::vector<double> first = model.state();
   Crept crept;

@@ -19,7 +19,7 @@ struct Crept {
 /// on the way there. Here drag resists all motion, faces slip on the way (Model::let_slip), and
 /// every step is a balance with the drag, which is easier to find the firmer the drag is. Within a
 /// step friction keeps to the limits that pressures set before it: then it is one minimum to find.
-/// Ends where drag takes less than 1e-6 of all forces, with tractions balanced to `enough` of the
+/// Ends where drag takes less than 1e-6 of the loads, with tractions balanced to `enough` of the
 /// largest; where that is not found, or a part slides off and nothing stops it, states and
 /// displacements are what they were. Collective. most: turns, about.
 Crept creep_to_balance(Model& model, ContactSolves& solves, Forces& given, double enough, int most);

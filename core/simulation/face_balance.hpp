@@ -76,7 +76,7 @@ class FaceBalance {
   double least_ = 1.0;
   int restarts_ = 0;
   bool gave_up_ = false;
-  bool condensed_ = false;       ///< the last solve was for the condensed body
+  bool condensed_ = false;       ///< steps went over the condensed body
   int rounds_ = 0;               ///< with the condensed body
   bool anchored_anew_ = true;    ///< weak springs hold loose bodies where they have come to now
   std::vector<double> nearest_;  ///< state

@@ -48,7 +48,7 @@ class FaceTurns {
   double limits_off() const { return limits_off_; }
   /// Do those agree as well as solves and rounding let tractions be told?
   bool limits_agree() const { return limits_off_ <= balanced_to_; }
-  /// Taken by springs of bodies in the last turn, as a part of all forces.
+  /// Taken by springs of bodies in the last turn, as a part of the loads.
   double pulled() const { return pulled_; }
 
  private:
