@@ -218,6 +218,8 @@ inline constexpr auto patch_columns = [](auto&& visit) {
       "normal_gap", "m", [](auto& r) -> auto& { return r.gap.normal; });
   visit(
       "tangential_gap", "m", [](auto& r) -> auto& { return r.gap.tangential; });
+  visit(
+      "friction_limit", "Pa", [](auto& r) -> auto& { return r.limit; });
 };
 
 }  // namespace cdca

@@ -133,7 +133,11 @@ void ContactPatches::put_back(const std::vector<ContactPatch>& patches) {
   };
   if (!std::equal(patches.begin(), patches.end(), patches_.begin(), patches_.end(), same))
     throw IoError("The checkpoint does not fit the case: other faces touch.");
-  patches_ = patches;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const std::size_t group = patches_[p].group;
+    patches_[p] = patches[p];
+    patches_[p].group = group;  // follows from the cracks, and is not written down
+  }
   find_means();
 }
 

@@ -3,6 +3,20 @@
 
 namespace cdca {
 
+namespace {
+
+/// Without what follows from the cracks.
+std::vector<ContactPatch> patches_to_keep(const ContactPatches& contact) {
+  std::vector<ContactPatch> patches = contact.patches();
+  for (ContactPatch& patch : patches) {
+    patch.group = ContactPatch().group;
+    patch.bodies = ContactPatch().bodies;
+  }
+  return patches;
+}
+
+}  // namespace
+
 Checkpoint take_checkpoint(const Model& model, const EnergyLedger& energy, const Progress& progress,
                            RunStory story) {
   return {progress,
@@ -10,7 +24,7 @@ Checkpoint take_checkpoint(const Model& model, const EnergyLedger& energy, const
           energy.totals(),
           model.registry().cracks(),
           model.registry().events(),
-          model.contact().patches(),
+          patches_to_keep(model.contact()),
           fields_of_cells(model.basis(), model.state(), energy.forces())};
 }
 

@@ -32,6 +32,19 @@ CaseSpec growing_cracks() {
   return spec;
 }
 
+/// Two flaws that a load from above closes; they slip, and wings grow from them.
+CaseSpec pressed_flaws() {
+  CaseSpec spec = growing_cracks();
+  spec.cracks.clear();
+  add_crack(spec, {{0.21, 0.33}, {0.48, 0.62}});
+  add_crack(spec, {{0.55, 0.66}, {0.79, 0.93}});
+  for (CrackSpec& crack : spec.cracks)
+    crack.contact = {ContactLaw::coulomb, 1e6, 1e5, 0.3, 0.0, 0.0, 0.0};
+  spec.boundaries[0].displacement[1] = proportional_load(-4e-3);
+  spec.load_factors = {0.5, 0.9, 1.3};
+  return spec;
+}
+
 /// Collects the rows of tips.csv; leaves the run at its `leave`-th rest.
 class Witness final : public Observer {
  public:
@@ -180,6 +193,15 @@ TEST(RestartParallel, OfACriticalLoadingGoesOnTheSame) {
   expect_same_from_rests(spec, 5);
 }
 
+TEST(RestartParallel, WhereFacesTouchGoesOnTheSame) { expect_same_from_rests(pressed_flaws(), 5); }
+
+TEST(RestartParallel, OfACriticalLoadingWhereFacesTouchGoesOnTheSame) {
+  CaseSpec spec = pressed_flaws();
+  spec.loading.critical = true;
+  spec.loading.max_events = 6;
+  expect_same_from_rests(spec, 5);
+}
+
 TEST(Restart, CanHaveOtherLoadSteps) {
   CaseSpec spec = growing_cracks();
   SerialCommunicator alone;
@@ -222,6 +244,8 @@ TEST(RestartParallel, RemembersSlip) {
   const auto expect_same_patches = [&](double tolerance) {
     for (std::size_t p = 0; p < a.size(); ++p) {
       EXPECT_EQ(a[p].now.state, b[p].now.state);
+      EXPECT_EQ(a[p].group, b[p].group);
+      EXPECT_EQ(a[p].bodies, b[p].bodies);
       EXPECT_NEAR(a[p].now.normal, b[p].now.normal, tolerance);
       EXPECT_NEAR(a[p].now.tangential, b[p].now.tangential, tolerance);
     }

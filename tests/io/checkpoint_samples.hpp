@@ -53,8 +53,8 @@ inline Checkpoint sample_checkpoint() {
   c.cracks = {bent, other};
   c.events = {{0, 0, EventKind::crossing, 0, -1, 1, {0.25, 0.125}},
               {2, 1, EventKind::coalescence, 0, 1, 1, {1.0 / 3.0, 0.6}}};
-  ContactPatch patch{1, 0, 0.25, 0.5, 0.1, 0, {}, {3e-6, -4e-6}, 1e-5, 2e-5, 1e4};
-  patch.now = {ContactState::slip, -1e5, 2e4, 4e13, 4e11, 6e-5};
+  ContactPatch patch{1, 0, 0.25, 0.5, 0.1, 0, {}, {3e-6, -4e-6}, 2e4, 1e-5, 2e-5, 1e4};
+  patch.now = {ContactState::slip, -1e5, 2e4, 4e13, 4e11, 0.0, 0.0, 6e-5};
   c.patches = {patch};
   return c;
 }
@@ -111,12 +111,13 @@ inline void expect_same(const Checkpoint& a, const Checkpoint& b) {
   ASSERT_EQ(a.patches.size(), b.patches.size());
   for (std::size_t k = 0; k < a.patches.size(); ++k) {
     const ContactPatch &p = a.patches[k], &q = b.patches[k];
-    EXPECT_EQ(std::tie(p.crack, p.segment, p.from, p.to, p.length, p.slip, p.largest, p.tangential,
-                       p.gap.normal, p.gap.tangential, p.now.state, p.now.normal, p.now.tangential,
-                       p.now.normal_spring, p.now.tangential_spring, p.now.largest),
-              std::tie(q.crack, q.segment, q.from, q.to, q.length, q.slip, q.largest, q.tangential,
-                       q.gap.normal, q.gap.tangential, q.now.state, q.now.normal, q.now.tangential,
-                       q.now.normal_spring, q.now.tangential_spring, q.now.largest));
+    EXPECT_EQ(
+        std::tie(p.crack, p.segment, p.from, p.to, p.length, p.limit, p.slip, p.largest,
+                 p.tangential, p.gap.normal, p.gap.tangential, p.now.state, p.now.normal,
+                 p.now.tangential, p.now.normal_spring, p.now.tangential_spring, p.now.largest),
+        std::tie(q.crack, q.segment, q.from, q.to, q.length, q.limit, q.slip, q.largest,
+                 q.tangential, q.gap.normal, q.gap.tangential, q.now.state, q.now.normal,
+                 q.now.tangential, q.now.normal_spring, q.now.tangential_spring, q.now.largest));
   }
 }
 
