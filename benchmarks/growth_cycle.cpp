@@ -22,7 +22,7 @@ CrackRegistry grown(const Model& model, int tips) {
   for (int k = 0; k < std::min(tips, 2 * int(model.registry().cracks().size())); ++k) {
     const Crack& crack = model.registry().cracks()[std::size_t(k / 2)];
     const Vec2 to = crack.end_point(k % 2) + step * crack.end_tangent(k % 2);
-    registry.advance(k / 2, k % 2, to, TipState::active, -1, 1, 0);
+    registry.advance(k / 2, k % 2, to, TipState::active, -1, {1, 0});
   }
   return registry;
 }

@@ -141,11 +141,19 @@ inline constexpr auto crack_columns = [](auto&& visit) {
   visit(
       "start_tip_was", "", [](auto& r) -> auto& { return r.ends[0].tip_was; });
   visit(
+      "start_joined_step", "", [](auto& r) -> auto& { return r.ends[0].joined.step; });
+  visit(
+      "start_joined_cycle", "", [](auto& r) -> auto& { return r.ends[0].joined.cycle; });
+  visit(
       "end_state", "", [](auto& r) -> auto& { return r.ends[1].state; });
   visit(
       "end_partner", "", [](auto& r) -> auto& { return r.ends[1].partner; });
   visit(
       "end_tip_was", "", [](auto& r) -> auto& { return r.ends[1].tip_was; });
+  visit(
+      "end_joined_step", "", [](auto& r) -> auto& { return r.ends[1].joined.step; });
+  visit(
+      "end_joined_cycle", "", [](auto& r) -> auto& { return r.ends[1].joined.cycle; });
 };
 struct PointRow {
   int crack = 0;
@@ -159,13 +167,15 @@ inline constexpr auto point_columns = [](auto&& visit) {
 };
 struct SegmentRow {
   int crack = 0;
-  int age = 0;
+  GrowthTime born;
 };
 inline constexpr auto segment_columns = [](auto&& visit) {
   visit(
       "crack", "", [](auto& r) -> auto& { return r.crack; });
   visit(
-      "age", "", [](auto& r) -> auto& { return r.age; });
+      "age", "", [](auto& r) -> auto& { return r.born.step; });
+  visit(
+      "cycle", "", [](auto& r) -> auto& { return r.born.cycle; });
 };
 
 inline constexpr auto event_columns = [](auto&& visit) {

@@ -15,14 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the arrays and their meaning; another one cannot be read.
-constexpr std::int64_t layout = 5;
+constexpr std::int64_t layout = 6;
 
 void put_cracks(Hdf5Output& file, const std::vector<Crack>& cracks) {
   std::vector<PointRow> points;
   std::vector<SegmentRow> segments;
   for (std::size_t c = 0; c < cracks.size(); ++c) {
     for (const Vec2& at : cracks[c].points) points.push_back({int(c), at});
-    for (const int age : cracks[c].age) segments.push_back({int(c), age});
+    for (const GrowthTime& born : cracks[c].born) segments.push_back({int(c), born});
   }
   put_table(file, "cracks", cracks, crack_columns);
   put_table(file, "crack_points", points, point_columns);
@@ -34,7 +34,7 @@ std::vector<Crack> read_cracks(const Hdf5Input& file) {
   for (const auto& row : read_table<PointRow>(file, "crack_points", point_columns))
     cracks.at(std::size_t(row.crack)).points.push_back(row.at);
   for (const auto& row : read_table<SegmentRow>(file, "crack_segments", segment_columns))
-    cracks.at(std::size_t(row.crack)).age.push_back(row.age);
+    cracks.at(std::size_t(row.crack)).born.push_back(row.born);
   return cracks;
 }
 

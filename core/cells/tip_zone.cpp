@@ -81,25 +81,34 @@ void insert_nodes(const StructuredGrid& grid, const Vec2& at, const Vec2& box, d
   }
 }
 
-/// Marks what can be reached from (element, part) over open stretches of sides.
-void flood(const ElementCuts& cuts, GridIndex start, int part, TipZone& zone) {
+/// Marks what can be reached from (element, part) over open stretches of sides, and across the
+/// faces that do not block the way.
+template <typename Blocks>
+void flood(const ElementCuts& cuts, GridIndex start, int part, const Blocks& blocks,
+           TipZone& zone) {
   const StructuredGrid& grid = cuts.grid();
-  const auto first = zone.parts.find(grid.element(start));
-  if (first == zone.parts.end() || first->second[std::size_t(part)]) return;
-  first->second[std::size_t(part)] = true;
-  std::deque<std::pair<GridIndex, int>> open{{start, part}};
+  std::deque<std::pair<GridIndex, int>> open;
+  const auto reach = [&](GridIndex e, int p) {
+    const auto there = zone.parts.find(grid.element(e));
+    if (there == zone.parts.end() || there->second[std::size_t(p)]) return;
+    there->second[std::size_t(p)] = true;
+    open.emplace_back(e, p);
+  };
+  reach(start, part);
   while (!open.empty()) {
     const auto [e, p] = open.front();
     open.pop_front();
+    for (const CrackFace& face : cuts.faces_at(e)) {
+      if (blocks(face)) continue;
+      if (face.plus_element == e && face.plus_part == p) reach(face.minus_element, face.minus_part);
+      if (face.minus_element == e && face.minus_part == p) reach(face.plus_element, face.plus_part);
+    }
     const GridIndex next[4] = {{e.i, e.j - 1}, {e.i + 1, e.j}, {e.i, e.j + 1}, {e.i - 1, e.j}};
     for (std::size_t s = 0; s < 4; ++s) {
       if (!grid.has_element(next[s])) continue;
-      const auto there = zone.parts.find(grid.element(next[s]));
-      if (there == zone.parts.end()) continue;
+      if (!zone.parts.count(grid.element(next[s]))) continue;
       for (const SideContact& c : contacts(cuts.side(e, s), cuts.side(next[s], (s + 2) % 4))) {
-        if (!c.open || c.first != p || there->second[std::size_t(c.second)]) continue;
-        there->second[std::size_t(c.second)] = true;
-        open.emplace_back(next[s], c.second);
+        if (c.open && c.first == p) reach(next[s], c.second);
       }
     }
   }
@@ -194,9 +203,10 @@ std::array<Eigen::Matrix2d, 4> mode_fields(double kolosov, const Vec2& tangent) 
 }
 
 /// The zone without the decision which cells with modes keep them.
-TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& tip,
+TipZone make_zone(const ElementCuts& cuts, const std::vector<Crack>& cracks, const PathTip& tip,
                   const ZoneRule& rule) {
   const StructuredGrid& grid = cuts.grid();
+  const Crack& crack = cracks[std::size_t(tip.crack)];
   const Vec2& h = grid.element_size();
   TipZone zone;
   zone.crack = tip.crack;
@@ -228,8 +238,13 @@ TipZone make_zone(const ElementCuts& cuts, const Crack& crack, const PathTip& ti
       if (grid.has_element(e)) zone.parts.try_emplace(grid.element(e), cuts.parts(e), false);
     }
   }
+  const GrowthTime joined = crack.ends[std::size_t(tip.end)].joined;
+  const auto blocks = [&](const CrackFace& face) {
+    const Crack& other = cracks[std::size_t(face.crack)];
+    return tip.is_active || other.born[std::size_t(face.segment)] < joined;
+  };
   for (const auto& [start, part] : parts_at_tip(cuts, tip, zone.frame))
-    flood(cuts, start, part, zone);
+    flood(cuts, start, part, blocks, zone);
   for (const GlobalId n : nodes) {
     const double share = reached_share(cuts, zone, grid.node_index(n));
     if (full.count(n) && share > 0.0) zone.nodes.insert(n);
@@ -268,7 +283,7 @@ std::vector<TipZone> find_tip_zones(const ElementCuts& cuts, const std::vector<C
                                     const ZoneRule& rule) {
   std::vector<TipZone> zones;
   for (const PathTip& tip : cuts.paths().tips()) {
-    zones.push_back(make_zone(cuts, cracks[std::size_t(tip.crack)], tip, rule));
+    zones.push_back(make_zone(cuts, cracks, tip, rule));
   }
   leave_crowded_cells(cuts.grid(), zones, rule.most_tips);
   return zones;

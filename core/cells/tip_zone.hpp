@@ -50,10 +50,10 @@ struct ZoneRule {
 
 /// The zones of all tips, the same on every rank: in order of crack and end.
 ///
-/// A tip that growth has joined leaves its functions behind: they go on to act on all that can be
-/// reached from where it was, on either side of the new crack. Without them the space would lose
-/// more than the new crack gives to it, and a join would give back energy where it lies in a narrow
-/// neck. For the same reason their modes stay in all cells.
+/// A tip that growth has joined leaves its functions behind: they go on to act on all that could be
+/// reached from where it was, on either side of the new crack, and of all that come later. Without
+/// them the space would lose more than the new crack gives to it, and a join would give back energy
+/// where it lies in a narrow neck. For the same reason their modes stay in all cells.
 ///
 /// Cells: the corners of every element that holds the tip (also on its rim), all nodes within the
 /// radius, and with little room those in reach of which at least half of the support can be reached

@@ -5,6 +5,7 @@
 #include "core/base/types.hpp"
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,12 +22,20 @@ enum class TipState : std::int32_t {
 
 const char* name_of(TipState state);
 
+/// When cracks grow: a growth cycle of a load step. In load step 0 initial cracks are put in place.
+struct GrowthTime {
+  int step = 0;
+  int cycle = 0;
+  friend auto operator<=>(const GrowthTime&, const GrowthTime&) = default;
+};
+
 struct CrackEnd {
   TipState state = TipState::active;
   int partner = -1;  ///< number of the crack that was met, or -1
   /// For an end that growth has joined: how many points back from it the tip was then. -1 for ends
   /// that have never been a tip.
   int tip_was = -1;
+  GrowthTime joined;  ///< when that was
 
   /// How many points back from the end the tip is, or was; none if it never was one.
   std::optional<int> points_past_tip() const;
@@ -34,8 +43,8 @@ struct CrackEnd {
 
 struct Crack {
   std::string name;
-  std::vector<Vec2> points;  ///< m, from end 0 to end 1
-  std::vector<int> age;      ///< load step in which each segment appeared; 0 for initial ones
+  std::vector<Vec2> points;      ///< m, from end 0 to end 1
+  std::vector<GrowthTime> born;  ///< when each segment appeared
   std::array<CrackEnd, 2> ends;
 
   std::size_t segments() const { return points.size() - 1; }

@@ -32,25 +32,28 @@ void CrackRegistry::add(std::string name, std::vector<Vec2> points) {
   Crack crack;
   crack.name = std::move(name);
   crack.points = std::move(points);
-  crack.age.assign(crack.segments(), 0);
+  crack.born.assign(crack.segments(), {});
   cracks_.push_back(std::move(crack));
 }
 
-void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int partner, int step,
-                            int cycle) {
+void CrackRegistry::advance(int c, int end, const Vec2& to, TipState state, int partner,
+                            const GrowthTime& now) {
   Crack& crack = cracks_[std::size_t(c)];
   const bool at_start = end == 0;
   const bool grows = to != crack.end_point(end);
   CrackEnd& there = crack.ends[std::size_t(end)];
-  there = {state, partner, -1};
+  there = {state, partner, -1, {}};
   // in load step 0 initial cracks are put in place, whose ends have not been tips yet
-  if (state != TipState::active && step > 0) there.tip_was = grows ? 1 : 0;
+  if (state != TipState::active && now.step > 0) {
+    there.tip_was = grows ? 1 : 0;
+    there.joined = now;
+  }
   if (grows) {
     crack.points.insert(at_start ? crack.points.begin() : crack.points.end(), to);
-    crack.age.insert(at_start ? crack.age.begin() : crack.age.end(), step);
+    crack.born.insert(at_start ? crack.born.begin() : crack.born.end(), now);
   }
   if (state != TipState::active)
-    events_.push_back({step, cycle, event_of(state), c, end, partner, to});
+    events_.push_back({now.step, now.cycle, event_of(state), c, end, partner, to});
 }
 
 void CrackRegistry::place_end(int c, int end, const Vec2& at) {
@@ -61,9 +64,9 @@ void CrackRegistry::place_end(int c, int end, const Vec2& at) {
   }
 }
 
-void CrackRegistry::join_end(int crack, int end, int partner) {
+void CrackRegistry::join_end(int crack, int end, int partner, const GrowthTime& now) {
   CrackEnd& met = cracks_[std::size_t(crack)].ends[std::size_t(end)];
-  if (met.state == TipState::active) met = {TipState::connected, partner, 0};
+  if (met.state == TipState::active) met = {TipState::connected, partner, 0, now};
 }
 
 int CrackRegistry::active_tips() const {
@@ -88,11 +91,12 @@ std::uint64_t CrackRegistry::hash() const {
   };
   for (const Crack& crack : cracks_) {
     for (const Vec2& p : crack.points) mix(p.data(), 2 * sizeof(double));
-    mix(crack.age.data(), crack.age.size() * sizeof(int));
+    mix(crack.born.data(), crack.born.size() * sizeof(GrowthTime));
     for (const CrackEnd& end : crack.ends) {
       mix(&end.state, sizeof end.state);
       mix(&end.partner, sizeof end.partner);
       mix(&end.tip_was, sizeof end.tip_was);
+      mix(&end.joined, sizeof end.joined);
     }
   }
   return h;

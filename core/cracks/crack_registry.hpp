@@ -56,15 +56,15 @@ class CrackRegistry {
   /// moved onto what they touch; onto the rim those nearer than `rim`, if that is more (m).
   void resolve_initial_meetings(const Rectangle& body, double touch, double rim = 0.0);
 
-  /// Lengthens a crack at one end by a straight segment to `to` (m), which appears in load step
-  /// `step`; the end takes the given state. Ends that meet something write an event. A step to
+  /// Lengthens a crack at one end by a straight segment to `to` (m), which appears now; the end
+  /// takes the given state. Ends that meet something write an event. A step to
   /// where the end is already adds no segment.
-  void advance(int crack, int end, const Vec2& to, TipState state, int partner, int step,
-               int cycle);
+  void advance(int crack, int end, const Vec2& to, TipState state, int partner,
+               const GrowthTime& now);
   /// Moves an end to `at` (m), and all ends that lie in just the same place with it.
   void place_end(int crack, int end, const Vec2& at);
   /// An end that another crack's tip has run into is a tip no more.
-  void join_end(int crack, int end, int partner);
+  void join_end(int crack, int end, int partner, const GrowthTime& now);
   void record(const Event& event) { events_.push_back(event); }
 
   const std::vector<Crack>& cracks() const { return cracks_; }

@@ -85,7 +85,7 @@ class InitialMeetings {
 
   bool end_here(int c, int end, const Vec2& at, TipState becomes, int partner) {
     registry_.place_end(c, end, at);
-    registry_.advance(c, end, at, becomes, partner, 0, 0);
+    registry_.advance(c, end, at, becomes, partner, {});
     return true;
   }
 

@@ -203,10 +203,10 @@ void apply_increments(const std::vector<Increment>& increments, double touch, in
                       CrackRegistry& registry) {
   for (const Increment& i : increments) {
     if (i.length() <= touch) registry.place_end(i.crack, i.end, i.to);
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, step, cycle);
+    registry.advance(i.crack, i.end, i.to, i.state, i.partner, {step, cycle});
   }
   for (const Increment& i : increments) {
-    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack);
+    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack, {step, cycle});
   }
 }
 

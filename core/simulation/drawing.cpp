@@ -145,7 +145,7 @@ CrackPart draw_cracks(const Model& model) {
       }
       const Crack& crack = model.registry().cracks()[std::size_t(face.crack)];
       part.crack.push_back(face.crack);
-      part.age.push_back(crack.age[std::size_t(face.segment)]);
+      part.age.push_back(crack.born[std::size_t(face.segment)].step);
       const Vec2 middle = model.grid().from_grid(0.5 * (face.from + face.to));
       const ContactPatch* patch = model.contact().find(face.crack, face.segment, middle);
       const bool closed = patch && patch->now.state != ContactState::open;

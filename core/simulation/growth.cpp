@@ -25,7 +25,7 @@ const Crack& crack_of(const CrackRegistry& registry, int crack) {
 }
 
 bool has_grown(const Crack& crack, int end) {
-  return (end == 0 ? crack.age.front() : crack.age.back()) > 0;
+  return (end == 0 ? crack.born.front() : crack.born.back()).step > 0;
 }
 
 /// By how much a direction is turned to end with K_II at 0. At first as for a kink: turning the

@@ -209,8 +209,8 @@ TEST(CarriedCells, MostCellsAreTheSame) {
   const auto model = built(plate_of(60, 120, three_cracks()));
   CrackRegistry registry = model->registry();
   const Crack& crack = registry.cracks()[0];
-  registry.advance(0, 1, crack.end_point(1) + crack.end_tangent(1) / 60, TipState::active, -1, 1,
-                   0);
+  registry.advance(0, 1, crack.end_point(1) + crack.end_tangent(1) / 60, TipState::active, -1,
+                   {1, 0});
   const std::int64_t all = model->hierarchy().factors().made();
   model->lay_cracks(registry);
   EXPECT_LT(model->hierarchy().factors().made(), all / 3);

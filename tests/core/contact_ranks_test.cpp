@@ -263,7 +263,7 @@ Growth creep_after_growth(Communicator& ranks, const Partitioner& partitioner) {
   CrackRegistry registry = model.registry();
   const Crack& crack = registry.cracks()[4];
   registry.advance(4, 0, crack.end_point(0) + 1.2 * h * crack.end_tangent(0), TipState::active, -1,
-                   1, 0);
+                   {1, 0});
   model.lay_cracks(registry);
   const Equilibrium crept = find_equilibrium(model, Fails(*solver, 1, 2), 0.4);
   Growth found{0.0, crept.strain_energy};

@@ -52,7 +52,7 @@ TEST(ContentCache, IntensitiesAfterGrowthAsWithoutIt) {
   CrackRegistry registry = model.registry();
   const Crack& crack = registry.cracks()[0];
   const Vec2 further = crack.end_point(1) + 0.04 * crack.end_tangent(1);
-  registry.advance(0, 1, further, TipState::active, -1, 1, 0);
+  registry.advance(0, 1, further, TipState::active, -1, {1, 0});
   model.lay_cracks(registry);
   find_equilibrium(model, *make_solver(model), 1.0);
   IntensityCache anew;

@@ -37,7 +37,7 @@ TEST(CrackRegistryTest, CrackInsideTheBodyKeepsTwoTips) {
   const CrackRegistry registry = resolved({{{2, 2}, {4, 3}}});
   EXPECT_EQ(registry.active_tips(), 2);
   EXPECT_TRUE(registry.events().empty());
-  EXPECT_EQ(registry.cracks()[0].age, std::vector<int>{0});
+  EXPECT_EQ(registry.cracks()[0].born, std::vector<GrowthTime>(1));
 }
 
 TEST(CrackRegistryTest, EndsNearTheRimMoveOntoIt) {
@@ -229,19 +229,19 @@ TEST(CrackRegistryTest, AddsUpLengths) {
 
 TEST(CrackRegistryTest, GrowsAtEitherEnd) {
   CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
-  registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, 2, 0);
-  registry.advance(0, 0, Vec2(1, 1), TipState::active, -1, 3, 1);
+  registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, {2, 0});
+  registry.advance(0, 0, Vec2(1, 1), TipState::active, -1, {3, 1});
   const Crack& crack = registry.cracks()[0];
   EXPECT_EQ(crack.points, (std::vector<Vec2>{{1, 1}, {2, 2}, {4, 3}, {5, 3}}));
-  EXPECT_EQ(crack.age, (std::vector<int>{3, 0, 2}));
+  EXPECT_EQ(crack.born, (std::vector<GrowthTime>{{3, 1}, {0, 0}, {2, 0}}));
   EXPECT_EQ(registry.active_tips(), 4);
   EXPECT_TRUE(registry.events().empty());
 }
 
 TEST(CrackRegistryTest, GrowthThatMeetsSomethingEndsTheTipWithAnEvent) {
   CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
-  registry.advance(0, 1, Vec2(6, 3), TipState::coalesced, 1, 4, 2);
-  registry.advance(0, 0, Vec2(0, 1), TipState::boundary, -1, 5, 0);
+  registry.advance(0, 1, Vec2(6, 3), TipState::coalesced, 1, {4, 2});
+  registry.advance(0, 0, Vec2(0, 1), TipState::boundary, -1, {5, 0});
   EXPECT_EQ(registry.active_tips(), 2);
   ASSERT_EQ(registry.events().size(), 2u);
   const Event& event = registry.events()[0];
@@ -257,19 +257,19 @@ TEST(CrackRegistryTest, GrowthThatMeetsSomethingEndsTheTipWithAnEvent) {
 
 TEST(CrackRegistryTest, AStepToWhereTheEndIsAddsNoSegment) {
   CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {6, 6}}});
-  registry.advance(0, 1, Vec2(4, 3), TipState::coalesced, 1, 4, 2);
+  registry.advance(0, 1, Vec2(4, 3), TipState::coalesced, 1, {4, 2});
   EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}}));
-  EXPECT_EQ(registry.cracks()[0].age.size(), 1u);
+  EXPECT_EQ(registry.cracks()[0].born.size(), 1u);
   EXPECT_EQ(end_of(registry, 0, 1).state, TipState::coalesced);
   EXPECT_EQ(registry.events().size(), 1u);
 }
 
 TEST(CrackRegistryTest, EndThatWasMetIsATipNoMore) {
   CrackRegistry registry = resolved({{{2, 2}, {4, 3}}, {{6, 2}, {10, 2}}});
-  registry.join_end(1, 0, 0);
+  registry.join_end(1, 0, 0, {1, 2});
   EXPECT_EQ(end_of(registry, 1, 0).state, TipState::connected);
   EXPECT_EQ(end_of(registry, 1, 0).partner, 0);
-  registry.join_end(1, 1, 0);
+  registry.join_end(1, 1, 0, {1, 2});
   EXPECT_EQ(end_of(registry, 1, 1).state, TipState::boundary) << "had ended before";
 }
 
@@ -277,15 +277,17 @@ TEST(CrackRegistryTest, EndsThatGrowthHasJoinedKnowWhereTheTipWas) {
   CrackRegistry registry = resolved({{{2, 2}, {4, 2}}, {{6, 2}, {6, 4}}, {{0, 6}, {3, 6}}});
   EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 0);
   EXPECT_FALSE(end_of(registry, 2, 0).points_past_tip()) << "it has never been a tip";
-  registry.advance(0, 1, Vec2(5, 2), TipState::active, -1, 1, 0);
+  registry.advance(0, 1, Vec2(5, 2), TipState::active, -1, {1, 0});
   EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 0);
-  registry.advance(0, 1, Vec2(6, 2), TipState::connected, 1, 2, 0);
-  registry.join_end(1, 0, 0);
+  registry.advance(0, 1, Vec2(6, 2), TipState::connected, 1, {2, 0});
+  registry.join_end(1, 0, 0, {2, 0});
   EXPECT_EQ(end_of(registry, 0, 1).points_past_tip(), 1);
   EXPECT_EQ(end_of(registry, 1, 0).points_past_tip(), 0);
+  EXPECT_EQ(end_of(registry, 0, 1).joined, (GrowthTime{2, 0}));
+  EXPECT_EQ(end_of(registry, 1, 0).joined, (GrowthTime{2, 0}));
   EXPECT_EQ(registry.cracks()[0].seen_from(1, 1).front(), Vec2(5, 2));
   // where the end is moved instead, the tip has been there
-  registry.advance(2, 1, Vec2(3, 6), TipState::coalesced, 1, 2, 0);
+  registry.advance(2, 1, Vec2(3, 6), TipState::coalesced, 1, {2, 0});
   EXPECT_EQ(end_of(registry, 2, 1).points_past_tip(), 0);
 }
 
@@ -330,7 +332,7 @@ TEST(CrackRegistryTest, HashSeesGrowthAndWhenItHappened) {
   for (const int step : {1, 2}) {
     CrackRegistry registry = resolved({{{2, 2}, {4, 3}}});
     hashes.insert(registry.hash());
-    registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, step, 0);
+    registry.advance(0, 1, Vec2(5, 3), TipState::active, -1, {step, 0});
     hashes.insert(registry.hash());
   }
   EXPECT_EQ(hashes.size(), 3u);

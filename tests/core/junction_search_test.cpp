@@ -285,7 +285,7 @@ TEST(JunctionsOnTheGrid, AreThereAfterGrowth) {
         resolve_meetings(registry, {Vec2(0, 0), Vec2(8, 6)}, 1e-3, {{1, 1, stem.back(), to}});
     const Increment& i = incs.at(0);
     ASSERT_NE(i.state, TipState::active);
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, 1, 0);
+    registry.advance(i.crack, i.end, i.to, i.state, i.partner, {1, 0});
     EXPECT_EQ(registry.active_tips(), 0);
     expect_junctions(square, registry, 3);
   }

@@ -19,7 +19,7 @@ namespace {
 Crack crack_along(std::vector<Vec2> points) {
   Crack crack;
   crack.points = std::move(points);
-  crack.age.assign(crack.segments(), 0);
+  crack.born.assign(crack.segments(), {});
   return crack;
 }
 

@@ -254,11 +254,11 @@ TEST(Connection, OneTipOfACrackMeetsItsOther) {
 TEST(Coalescence, WithinTouchTheEndMovesInsteadOfAStep) {
   // a tip that has come within touch of a face without having ended on it
   CrackRegistry registry = registry_of({{{2, 2}, {4, 3}}, {{6, 2}, {6, 5}}});
-  registry.advance(0, 1, Vec2(5.9995, 3), TipState::active, -1, 1, 0);
+  registry.advance(0, 1, Vec2(5.9995, 3), TipState::active, -1, {1, 0});
   const auto incs = resolved(registry, {{0, 1, Vec2(1, 0)}});
   apply_increments(incs, touch, 2, 0, registry);
   EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}, {6, 3}}));
-  EXPECT_EQ(registry.cracks()[0].age, (std::vector<int>{0, 1}));
+  EXPECT_EQ(registry.cracks()[0].born, (std::vector<GrowthTime>{{0, 0}, {1, 0}}));
   EXPECT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced);
 }
 

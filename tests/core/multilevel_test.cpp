@@ -240,7 +240,7 @@ TEST(MultilevelParallel, GrowthRebuildsOnlyTheWindowsThatItTouches) {
   Built plate(cracked());
   const std::int64_t all = world().sum(plate.model.hierarchy().factors().made());
   CrackRegistry registry = plate.model.registry();
-  registry.advance(0, 1, {0.87, 0.525}, TipState::active, -1, 1, 0);
+  registry.advance(0, 1, {0.87, 0.525}, TipState::active, -1, {1, 0});
   plate.model.lay_cracks(registry);
   const std::int64_t made = world().sum(plate.model.hierarchy().factors().made());
   EXPECT_GT(made, 0);

@@ -104,7 +104,7 @@ TEST(TipZoneTest, ATipThatHasJoinedLeavesItsFunctionsBehind) {
     return find_tip_zones(cuts, registry.cracks(), {0.0, 2.0});
   };
   const TipZone before = zones_now().at(1);
-  registry.advance(0, 1, Vec2(17.2, 13.1), TipState::coalesced, 1, 1, 0);
+  registry.advance(0, 1, Vec2(17.2, 13.1), TipState::coalesced, 1, {1, 0});
   const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
   const TipZone after = zones_now().at(1);
   EXPECT_TRUE(before.is_active);
@@ -117,6 +117,32 @@ TEST(TipZoneTest, ATipThatHasJoinedLeavesItsFunctionsBehind) {
   ASSERT_EQ(cuts.parts(ahead), 2);
   EXPECT_TRUE(after.acts_on(grid.element(ahead), 0));
   EXPECT_TRUE(after.acts_on(grid.element(ahead), 1));
+}
+
+/// What has joined does not lose cells to cracks that come later.
+TEST(TipZoneTest, FunctionsLeftBehindActBeyondLaterCracks) {
+  const StructuredGrid grid(Vec2(0, 0), Vec2(30, 30), 30, 30);
+  CrackRegistry registry;
+  registry.add("", {{4.1, 14.6}, {14.4, 14.6}});
+  registry.add("", {{17.2, 5.3}, {17.2, 25.1}});
+  registry.add("", {{10.3, 22.2}, {12.9, 17.3}});
+  const auto zone_now = [&] {
+    const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
+    return find_tip_zones(cuts, registry.cracks(), {0.0, 2.0}).at(1);
+  };
+  registry.advance(0, 1, Vec2(17.2, 13.1), TipState::coalesced, 1, {1, 1});
+  const TipZone before = zone_now();
+  registry.advance(2, 1, Vec2(17.2, 16.2), TipState::coalesced, 1, {1, 2});
+  const ElementCuts cuts(grid, CrackPaths(grid, registry.cracks()));
+  const TipZone after = zone_now();
+  EXPECT_EQ(after.nodes, before.nodes);
+  EXPECT_EQ(after.with_modes, before.with_modes);
+  const GridIndex cut{15, 16};
+  ASSERT_EQ(cuts.parts(cut), 2);
+  EXPECT_TRUE(after.acts_on(grid.element(cut), 0));
+  EXPECT_TRUE(after.acts_on(grid.element(cut), 1));
+  const GridIndex beyond{18, 14};
+  EXPECT_FALSE(after.acts_on(grid.element(beyond), 0)) << "that crack was there before";
 }
 
 /// Lest the mirrored problem had another answer.

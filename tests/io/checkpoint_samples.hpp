@@ -44,12 +44,13 @@ inline Checkpoint sample_checkpoint() {
   Crack bent;
   bent.name = "Riß, der erste";
   bent.points = {{0.1, 0.2}, {0.3, 0.4 + 1e-17}, {1.0 / 3.0, 0.6}};
-  bent.age = {0, 2};
-  bent.ends = {CrackEnd{TipState::boundary, -1}, CrackEnd{TipState::coalesced, 1, 1}};
+  bent.born = {{0, 0}, {2, 1}};
+  bent.ends = {CrackEnd{TipState::boundary, -1, -1, {}},
+               CrackEnd{TipState::coalesced, 1, 1, {2, 1}}};
   Crack other;
   other.name = "b";
   other.points = {{-0.1, 1e-9}, {0.5, 0.5}};
-  other.age = {0};
+  other.born = {{0, 0}};
   c.cracks = {bent, other};
   c.events = {{0, 0, EventKind::crossing, 0, -1, 1, {0.25, 0.125}},
               {2, 1, EventKind::coalescence, 0, 1, 1, {1.0 / 3.0, 0.6}}};
