@@ -16,7 +16,8 @@ This page is what `cdca options` prints: it comes from the table that checks cas
 * A *load* is a number, which is reached at load factor 1, or an expression in quotes in x, y (m) and the
   load factor s, such as `"1e6*(1 - 2*x)*s"`. Expressions know + - * / ^, the functions `sqrt`, `sin`, `cos`,
   `atan2`, `abs`, `exp`, `log` (natural), `min`, `max`, the constant `pi`, comparisons, `&&`, `||`, and
-  conditionals as in `"x < 0.1 ? 1e6*s : 0"`.
+  conditionals as in `"x < 0.1 ? 1e6*s : 0"`. Without s, as in `"-5e6"`, it acts in full from the first load step:
+  so a confining stress stays as it is (not with `loading.mode = "critical"`).
 * Every key can be set on the command line, as in `--set material.young=70e9`. Blocks and entries of lists
   are counted from 0: `--set boundary[1].traction=[0,1e6]`, `--set crack[0].points[1][0]=0.02`.
 * Unknown keys, wrong types and values outside of their range are errors; all of them are reported at once.

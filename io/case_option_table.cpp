@@ -63,14 +63,16 @@ constexpr Option option_table[] = {
      .shape = pair,
      .range = from_one,
      .required = true,
-     .text = "Number of elements in x and y."},
+     .text = "Number of elements in x and y. The cells of the method are the nodes, with the "
+             "elements round them."},
     later("domain", "mesh", "", "File with a mesh of quads and triangles, instead of `cells`."),
     {.section = "domain",
      .key = "thickness",
      .unit = "m",
      .range = positive,
      .standard = "1.0",
-     .text = "Thickness of the body. Forces and energies in the results are per metre of it."},
+     .text = "Thickness of the body. Forces and energies in the results are those of the whole "
+             "thickness."},
     {.section = "domain",
      .key = "plane",
      .kind = choice,
@@ -127,8 +129,8 @@ constexpr Option option_table[] = {
              "\"frictionless\": they push; needs `normal_stiffness`. \"coulomb\": they push and "
              "rub; needs `normal_stiffness`, `tangential_stiffness` and `friction`. "
              "\"cohesive\": they hold together until they are torn apart; needs "
-             "`normal_stiffness`, `cohesive_stiffness` and `critical_gap`. A law ignores "
-             "the keys of other laws."},
+             "`normal_stiffness`, `cohesive_stiffness` and `critical_gap`. Cracks "
+             "with this law have no K and do not grow. A law ignores the keys of other laws."},
     faces("contact", "normal_stiffness", "Pa/m", positive,
           "Stiffness of touching faces, per area of the faces: they overlap by their pressure "
           "divided by it."),
@@ -278,8 +280,10 @@ constexpr Option option_table[] = {
      .text = "\"prescribed\": the load factors are given. \"critical\": in every step, the load "
              "factor at which the next tip grows; needs a growth criterion, loads proportional to "
              "s, and neither `steps` nor `factors`."},
-    whole("loading", "max_events", from_one, "500",
-          "Growth events after which a critical loading ends."),
+    whole(
+        "loading", "max_events", from_one, "500",
+        "Growth events, rows of history.csv, after which a critical loading ends; at the last one "
+        "the load is found, but nothing grows."),
     {.section = "loading",
      .key = "min_factor",
      .range = {.low = 0.0, .high = 1.0, .low_allowed = false, .high_allowed = false},
@@ -293,8 +297,9 @@ constexpr Option option_table[] = {
      .choices = "none|hoop|mixed",
      .standard = "\"none\"",
      .text = "\"none\": cracks do not grow. \"hoop\": towards the largest hoop stress when it "
-             "reaches the toughness; needs `material.toughness`. \"mixed\": by tension or by "
-             "shear; needs `material.tensile_strength`."},
+             "reaches the toughness; needs `material.toughness`. \"mixed\": by tension, and by "
+             "shear where `material.cohesion` and `material.friction_angle` are given; needs "
+             "`material.tensile_strength`."},
     {.section = "growth",
      .key = "radius",
      .kind = automatic,
@@ -308,8 +313,8 @@ constexpr Option option_table[] = {
      .kind = choice,
      .choices = "singular|full",
      .standard = "\"singular\"",
-     .text = "Stresses that \"mixed\" takes: those of K_I and K_II, or those of the whole "
-             "computed field."},
+     .text = "Stresses by which \"mixed\" judges tension: those of K_I and K_II, or those of the "
+             "whole computed field. Shear is always judged by the whole field."},
     {.section = "growth",
      .key = "literal",
      .kind = boolean,
@@ -322,7 +327,7 @@ constexpr Option option_table[] = {
      .choices = "arrest|fixed",
      .standard = "\"arrest\"",
      .text = "\"arrest\": as far as the stress would still break the material, within "
-             "`step_length`. \"fixed\": always `step_length`."},
+             "`step_length`. \"fixed\": always `step_length`, given as one number."},
     {.section = "growth",
      .key = "step_length",
      .shape = single_or_limits,
@@ -342,8 +347,10 @@ constexpr Option option_table[] = {
      .standard = "\"corrected\"",
      .text = "\"corrected\": the direction of a new segment is corrected until it ends with K_II "
              "near 0. \"explicit\": as the criterion says before the segment is there."},
-    whole("growth", "cycles", from_one, "200",
-          "Most growth cycles in one load step of a prescribed loading."),
+    whole(
+        "growth", "cycles", from_one, "200",
+        "Most growth cycles in one load step of a prescribed loading; then an event `unstable` is "
+        "noted, and the next load step begins."),
 
     {.section = "solver",
      .key = "method",
@@ -364,7 +371,7 @@ constexpr Option option_table[] = {
      .standard = "1.0",
      .text = "Factor on every move of the rule; for method \"relaxation\" only."},
     whole("solver", "max_iterations", OptionRange{.low = 0.0, .high = 1e9}, "0",
-          "Most iterations of one solve; 0: chosen from the size of the problem."),
+          "Most iterations of one solve; 0: 200000, or 1000000 sweeps of \"relaxation\"."),
     whole("solver", "condensed_nodes", OptionRange{.low = 0.0, .high = 1e9}, "50000",
           "Grids of up to so many nodes are condensed to touching faces where these are many (an "
           "element of an initial crack for every hundred nodes): faster on few ranks, with more "
