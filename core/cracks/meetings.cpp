@@ -199,14 +199,14 @@ std::vector<Increment> resolve_meetings(const CrackRegistry& registry, const Rec
   return MeetingQueue(registry, body, touch, std::move(increments)).run();
 }
 
-void apply_increments(const std::vector<Increment>& increments, double touch, int step, int cycle,
-                      CrackRegistry& registry) {
+void apply_increments(const std::vector<Increment>& increments, double touch,
+                      const GrowthTime& when, CrackRegistry& registry) {
   for (const Increment& i : increments) {
     if (i.length() <= touch) registry.place_end(i.crack, i.end, i.to);
-    registry.advance(i.crack, i.end, i.to, i.state, i.partner, {step, cycle});
+    registry.advance(i.crack, i.end, i.to, i.state, i.partner, when);
   }
   for (const Increment& i : increments) {
-    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack, {step, cycle});
+    if (i.partner_end >= 0) registry.join_end(i.partner, i.partner_end, i.crack, when);
   }
 }
 

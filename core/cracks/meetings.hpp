@@ -41,7 +41,7 @@ std::vector<Increment> resolve_meetings(const CrackRegistry& registry, const Rec
 
 /// Applies resolved increments of one growth cycle. One that ends within `touch` (m) of the tip
 /// moves it there and adds no segment.
-void apply_increments(const std::vector<Increment>& increments, double touch, int step, int cycle,
-                      CrackRegistry& registry);
+void apply_increments(const std::vector<Increment>& increments, double touch,
+                      const GrowthTime& when, CrackRegistry& registry);
 
 }  // namespace cdca

@@ -66,9 +66,10 @@ std::vector<ArcSample> singular_arc(double k1, double k2, double r) {
 
 TipJudgement judge_hoop(double k1, double k2, const Strength& strength) {
   TipJudgement judgement;
-  judgement.angle = hoop_angle(k1, k2);
-  judgement.u_tension = hoop_intensity(k1, k2, judgement.angle) / strength.toughness.value();
-  judgement.mode = FractureMode::hoop;
+  judgement.tensile_angle = hoop_angle(k1, k2);
+  judgement.u_tension =
+      hoop_intensity(k1, k2, judgement.tensile_angle) / strength.toughness.value();
+  judgement.tensile_mode = FractureMode::hoop;
   return judgement;
 }
 
@@ -83,19 +84,19 @@ TipJudgement judge_mixed(const std::vector<ArcSample>& arc, const std::vector<Ar
   // equal peaks (pure shear of either sign) are told apart by the first one, on every rank alike
   const auto best = std::size_t(std::max_element(u.begin(), u.end()) - u.begin());
   judgement.u_tension = u[best];
-  judgement.angle = arc[best].angle;
+  judgement.tensile_angle = arc[best].angle;
   if (best > 0 && best + 1 < u.size()) {
     const double left = u[best - 1], right = u[best + 1], bow = left - 2 * u[best] + right;
     const double step = 0.5 * (arc[best + 1].angle - arc[best - 1].angle);
     if (bow < 0.0 && step < 0.1) {
       const double shift = 0.5 * (left - right) / bow;
-      judgement.angle += shift * step;
+      judgement.tensile_angle += shift * step;
       judgement.u_tension -= 0.25 * (left - right) * shift;
     }
   }
   const ArcSample& at = arc[best];
-  judgement.mode =
-      std::abs(judgement.angle) < 1e-3 && std::abs(at.shear) < 1e-2 * std::abs(at.normal)
+  judgement.tensile_mode =
+      std::abs(judgement.tensile_angle) < 1e-3 && std::abs(at.shear) < 1e-2 * std::abs(at.normal)
           ? FractureMode::tension
           : FractureMode::mixed;
   if (full.empty() || !strength.cohesion || !strength.friction_angle) return judgement;
@@ -105,7 +106,6 @@ TipJudgement judge_mixed(const std::vector<ArcSample>& arc, const std::vector<Ar
   judgement.shear_angle = most->angle;
   judgement.u_shear =
       coulomb_index(most->normal, most->shear, *strength.cohesion, *strength.friction_angle);
-  if (judgement.u_tension < 1.0 && judgement.u_shear >= 1.0) judgement.mode = FractureMode::shear;
   return judgement;
 }
 

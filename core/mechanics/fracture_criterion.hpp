@@ -4,6 +4,7 @@
 
 #include "core/base/types.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -40,13 +41,25 @@ struct Strength {
 enum class FractureMode : std::int32_t { none, tension, mixed, shear, hoop };
 const char* name_of(FractureMode mode);
 
+/// An index that has reached this counts as 1: tips that differ by less grow together, whatever the
+/// rank count.
+constexpr double growing_index = 1.0 - 1e-5;
+
 /// The judgement of one tip. It grows when one of the indices reaches 1; tension has priority.
+/// Indices may be multiplied with the load: what is asked of them follows.
 struct TipJudgement {
   double u_tension = 0.0;
   double u_shear = 0.0;
-  double angle = 0.0;                      ///< of the tensile growth, rad
-  double shear_angle = 0.0;                ///< of the growth in shear, rad
-  FractureMode mode = FractureMode::none;  ///< in which it would grow
+  double tensile_angle = 0.0;                      ///< of the tensile growth, rad
+  double shear_angle = 0.0;                        ///< of the growth in shear, rad
+  FractureMode tensile_mode = FractureMode::none;  ///< of the tensile growth
+
+  double index() const { return std::max(u_tension, u_shear); }
+  bool grows() const { return index() >= growing_index; }
+  bool in_shear() const { return grows() && u_tension < growing_index; }
+  /// In which it grows, or would grow in tension, rad.
+  double angle() const { return in_shear() ? shear_angle : tensile_angle; }
+  FractureMode mode() const { return in_shear() ? FractureMode::shear : tensile_mode; }
 };
 
 /// Stresses on the arc round a tip, in polar components.

@@ -16,7 +16,7 @@ struct Progress {
   double load_factor = 0.0;     ///< of the last equilibrium
   double largest_factor = 0.0;  ///< so far; critical mode
   double first_factor = 0.0;    ///< of the first growth; critical mode
-  bool joined = true;           ///< the body joined its loaded boundaries when the run began
+  bool joined = true;  ///< the body joins its loaded boundaries, but for what growth may have cut
 };
 
 /// What has been told of a run so far.

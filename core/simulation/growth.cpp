@@ -56,7 +56,10 @@ bool turn_plans(const Model& model, double load_factor, std::vector<GrowthPlan>&
     for (const StressIntensity& k : intensities) {
       if (k.crack != plan.crack || k.end != plan.end || k.k1 <= 0.0) continue;
       const double turn = next_turn(plan, k);
-      if (std::abs(plan.angle + turn) > sharp_turn) continue;
+      if (std::abs(plan.angle + turn) > sharp_turn) {
+        plan.last_turn = 0.0;  // not made: the next one learns nothing from it
+        continue;
+      }
       plan.angle += turn;
       turned_any = turned_any || std::abs(k.k2) > 0.01 * k.k1;
     }
@@ -68,8 +71,7 @@ bool turn_plans(const Model& model, double load_factor, std::vector<GrowthPlan>&
 
 double greatest_index(const std::vector<TipAssessment>& tips) {
   double u = 0.0;
-  for (const TipAssessment& tip : tips)
-    u = std::max({u, tip.judgement.u_tension, tip.judgement.u_shear});
+  for (const TipAssessment& tip : tips) u = std::max(u, tip.judgement.index());
   return u;
 }
 
@@ -146,18 +148,18 @@ double GrowthCriterion::step_length(const Model& model, double u) const {
 }
 
 std::vector<GrowthPlan> plan_growth(const Model& model, const GrowthCriterion& criterion,
-                                    const std::vector<TipAssessment>& tips, double threshold) {
+                                    const std::vector<TipAssessment>& tips) {
   const double h = model.grid().smallest_side();
   std::vector<GrowthPlan> plans;
   for (const TipAssessment& tip : tips) {
     const TipJudgement& j = tip.judgement;
-    const bool in_shear = j.mode == FractureMode::shear;
-    if (std::max(j.u_tension, in_shear ? j.u_shear : 0.0) < threshold) continue;
-    GrowthPlan plan{tip.intensity.crack, tip.intensity.end, in_shear ? j.shear_angle : j.angle,
-                    criterion.step_length(model, std::max(1.0, j.u_tension / threshold)), false};
+    if (!j.grows()) continue;
+    GrowthPlan plan{tip.intensity.crack, tip.intensity.end, j.angle(),
+                    criterion.step_length(model, std::max(1.0, j.u_tension / growing_index)),
+                    false};
     plan.angle = rounded(plan.angle, 1e-6);
     plan.length = rounded(plan.length, 1e-6 * h);
-    plan.correct = model.spec().growth.corrected && !in_shear &&
+    plan.correct = model.spec().growth.corrected && !j.in_shear() &&
                    has_grown(crack_of(model.registry(), plan.crack), plan.end) &&
                    std::abs(plan.angle) <= sharp_turn;
     plans.push_back(plan);
@@ -178,7 +180,7 @@ std::vector<Increment> increments_of(const Model& model, const CrackRegistry& re
 }
 
 std::optional<Model::CrackedField> correct_directions(Model& model, const EquilibriumSolver& solver,
-                                                      double load_factor,
+                                                      double load_factor, const GrowthTime& when,
                                                       std::vector<GrowthPlan>& plans) {
   const bool any =
       std::any_of(plans.begin(), plans.end(), [](const GrowthPlan& p) { return p.correct; });
@@ -192,7 +194,7 @@ std::optional<Model::CrackedField> correct_directions(Model& model, const Equili
   // a trial begins where the one before it has come to rest
   for (int trial = 0; trial < most_trials && turned_any; ++trial) {
     CrackRegistry ahead = registry;
-    apply_increments(increments_of(model, registry, plans), model.touch_distance(), 1, 0, ahead);
+    apply_increments(increments_of(model, registry, plans), model.touch_distance(), when, ahead);
     model.lay_cracks(ahead);
     // where the step cuts the body apart there is no field to correct it by
     if (joined && !model.joins_loaded_boundaries()) break;

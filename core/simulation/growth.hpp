@@ -55,15 +55,16 @@ struct GrowthPlan {
   double last_mix = 0.0;
 };
 
-/// Plans for all tips with an index of at least `threshold`.
+/// Plans for all tips that grow.
 std::vector<GrowthPlan> plan_growth(const Model& model, const GrowthCriterion& criterion,
-                                    const std::vector<TipAssessment>& tips, double threshold);
+                                    const std::vector<TipAssessment>& tips);
 
 /// Turns planned increments until they end with K_II near 0: all growing tips advance together on
-/// trial, at most twice. The model comes back with its own cracks and its own state. Returns the
-/// equilibrium of the last trial, if there is one: that after growth is near it. Collective.
+/// trial, at most twice. when: they will grow. The model comes back with its own cracks and its own
+/// state. Returns the equilibrium of the last trial, if there is one: that after growth is near it.
+/// Collective.
 std::optional<Model::CrackedField> correct_directions(Model& model, const EquilibriumSolver& solver,
-                                                      double load_factor,
+                                                      double load_factor, const GrowthTime& when,
                                                       std::vector<GrowthPlan>& plans);
 
 /// The increments of the plans for these cracks, ended where they meet something.

@@ -14,8 +14,6 @@ namespace cdca {
 
 namespace {
 
-/// Tips whose index differs by less than this grow together, whatever the rank count.
-constexpr double equal_index = 1e-5;
 constexpr int most_halvings = 3;  ///< of a load step whose contact does not settle
 
 /// A difference between the copies of the registry is a bug that would spoil all that follows.
@@ -53,9 +51,9 @@ Equilibrium reach(Model& model, const EquilibriumSolver& solver, double from, do
   return reach(model, solver, middle, to, halvings - 1, recorder, energy);
 }
 
-void advance(Model& model, const std::vector<Increment>& increments, int step, int cycle) {
+void advance(Model& model, const std::vector<Increment>& increments, const GrowthTime& when) {
   CrackRegistry registry = model.registry();
-  apply_increments(increments, model.touch_distance(), step, cycle, registry);
+  apply_increments(increments, model.touch_distance(), when, registry);
   model.lay_cracks(std::move(registry));
 }
 
@@ -90,9 +88,9 @@ struct NextGrowth {
 
 NextGrowth next_growth(Model& model, const EquilibriumSolver& solver, double factor,
                        const GrowthCriterion& criterion, const std::vector<TipAssessment>& tips,
-                       double threshold) {
-  auto plans = plan_growth(model, criterion, tips, threshold);
-  auto trial = correct_directions(model, solver, factor, plans);
+                       const GrowthTime& when) {
+  auto plans = plan_growth(model, criterion, tips);
+  auto trial = correct_directions(model, solver, factor, when, plans);
   return {increments_of(model, model.registry(), plans), std::move(trial)};
 }
 
@@ -136,7 +134,8 @@ struct Separation {
 /// The first load step that is left to be done: the case may have other steps now than it had.
 std::size_t next_step(const std::vector<double>& factors, const Progress& at) {
   if (at.steps == 0 && at.cycles == 0) return 0;
-  const double margin = 1e-9 * at.load_factor;
+  double margin = 0.0;
+  for (const double f : factors) margin = std::max(margin, 1e-9 * std::abs(f));
   const double from = at.cycles > 0 ? at.load_factor - margin : at.load_factor + margin;
   return std::size_t(std::lower_bound(factors.begin(), factors.end(), from) - factors.begin());
 }
@@ -160,18 +159,22 @@ void run_prescribed(Model& model, Recorder& recorder, RunStart start) {
     at.load_factor = result.load_factor;
     note_fragments(model, result.step, 0);
     bool& separated = separation.is_there;
+    // parts that loads alone have moved apart are not separated by growth
+    at.joined = model.joins_loaded_boundaries();
     std::vector<TipAssessment> tips;
     if (!separated) tips = criterion.assess(model, result.load_factor);
     for (int& cycle = result.growth_cycles; criterion.grows() && !separated;) {
-      if (greatest_index(tips) < 1.0 - equal_index) break;
-      if (cycle == spec.growth.cycles) {
+      if (greatest_index(tips) < growing_index) break;
+      if (cycle >= spec.growth.cycles) {  // a run that goes on may be allowed fewer
         note(model, EventKind::unstable, result.step, cycle);
         break;
       }
+      const GrowthTime when{result.step, cycle + 1};
       const NextGrowth growth =
-          next_growth(model, *solver, result.load_factor, criterion, tips, 1.0 - equal_index);
+          next_growth(model, *solver, result.load_factor, criterion, tips, when);
       recorder.cycle(model, result.step, cycle, tips, growth.increments);
-      advance(model, growth.increments, result.step, ++cycle);
+      advance(model, growth.increments, when);
+      ++cycle;
       separated = at.joined && !model.joins_loaded_boundaries();
       if (!separated) {
         equilibrium = separation.unless_it_slides_off(
@@ -240,19 +243,19 @@ void run_critical(Model& model, Recorder& recorder, RunStart start) {
     if (now.grows) largest = std::max(largest, factor);
     if (now.grows && at.first_factor == 0.0) at.first_factor = factor;
     StepResult result{event, factor, 1, false};
-    result.last = !now.grows || event == spec.loading.max_events ||
+    result.last = !now.grows || event >= spec.loading.max_events ||
                   factor < spec.loading.min_factor * largest;
     energy = std::move(now.energy);
     energy.new_factor(model, now.equilibrium, factor);
     accept_contact(model, Model::Since::other_loads, energy);
     NextGrowth growth;
-    if (!result.last)
-      growth = next_growth(model, *solver, factor, criterion, now.tips, 1.0 - equal_index);
+    const GrowthTime when{event, 1};
+    if (!result.last) growth = next_growth(model, *solver, factor, criterion, now.tips, when);
     recorder.cycle(model, event, 0, now.tips, growth.increments);
     recorder.step(model, result, now.equilibrium, energy, now.tips);
     if (result.last) return;
     energy.let_cracks_grow();
-    advance(model, growth.increments, event, 1);
+    advance(model, growth.increments, when);
     if (growth.trial) model.start_from(*growth.trial);
     if (model.contact().empty()) {
       for (double& v : model.state()) v /= factor;  // the next solve starts at factor 1

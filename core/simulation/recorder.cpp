@@ -31,9 +31,8 @@ void fill(TipRecord& tip, const TipAssessment& assessment) {
   tip.k_radius = assessment.intensity.radius;
   tip.u_tension = j.u_tension;
   tip.u_shear = j.u_shear;
-  tip.angle_deg =
-      (j.mode == FractureMode::shear ? j.shear_angle : j.angle) * 180 / std::numbers::pi;
-  tip.mode = name_of(j.mode);
+  tip.angle_deg = j.angle() * 180 / std::numbers::pi;
+  tip.mode = name_of(j.mode());
 }
 
 }  // namespace

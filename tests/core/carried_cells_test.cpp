@@ -79,7 +79,7 @@ CrackRegistry grown(const Model& model, std::mt19937& engine) {
   increments = resolve_meetings(model.registry(), model.body(), model.touch_distance(),
                                 std::move(increments));
   CrackRegistry registry = model.registry();
-  apply_increments(increments, model.touch_distance(), 1, 0, registry);
+  apply_increments(increments, model.touch_distance(), {1, 0}, registry);
   return registry;
 }
 

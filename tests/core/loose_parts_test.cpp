@@ -43,7 +43,7 @@ std::unique_ptr<Model> cut(double friction, bool on_scales) {
   CrackRegistry registry = model->registry();
   const Vec2 tip = registry.cracks()[0].end_point(1);
   const std::vector<Increment> through{{0, 1, tip, {1, 0.9}, TipState::boundary}};
-  apply_increments(through, model->touch_distance(), 1, 1, registry);
+  apply_increments(through, model->touch_distance(), {1, 1}, registry);
   model->lay_cracks(std::move(registry));
   return model;
 }

@@ -241,7 +241,7 @@ TEST(Connection, TheTipsOfOneCrackMeet) {
   expect_end(incs[0], Vec2(6, 6), TipState::connected, 0, 1);
   expect_end(incs[1], Vec2(6, 6), TipState::connected, 0, 0);
   CrackRegistry registry = registry_of(c);
-  apply_increments(incs, touch, 1, 0, registry);
+  apply_increments(incs, touch, {1, 0}, registry);
   EXPECT_EQ(registry.active_tips(), 0);
   EXPECT_EQ(registry.cracks()[0].points.front(), registry.cracks()[0].points.back());
 }
@@ -256,7 +256,7 @@ TEST(Coalescence, WithinTouchTheEndMovesInsteadOfAStep) {
   CrackRegistry registry = registry_of({{{2, 2}, {4, 3}}, {{6, 2}, {6, 5}}});
   registry.advance(0, 1, Vec2(5.9995, 3), TipState::active, -1, {1, 0});
   const auto incs = resolved(registry, {{0, 1, Vec2(1, 0)}});
-  apply_increments(incs, touch, 2, 0, registry);
+  apply_increments(incs, touch, {2, 0}, registry);
   EXPECT_EQ(registry.cracks()[0].points, (std::vector<Vec2>{{2, 2}, {4, 3}, {6, 3}}));
   EXPECT_EQ(registry.cracks()[0].born, (std::vector<GrowthTime>{{0, 0}, {1, 0}}));
   EXPECT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced);
@@ -396,7 +396,7 @@ TEST(MeetingsOfACrowd, LeaveACleanNetwork) {
     CrackRegistry registry = crowd(random);
     for (int cycle = 1; cycle <= 5; ++cycle) {
       const auto incs = resolved(registry, random_steps(registry, random));
-      apply_increments(incs, touch, 1, cycle, registry);
+      apply_increments(incs, touch, {1, cycle}, registry);
       for (const Increment& i : incs) expect_clean(registry, i);
       met += int(std::count_if(incs.begin(), incs.end(),
                                [](const Increment& i) { return i.state != TipState::active; }));

@@ -42,11 +42,11 @@ Solved grown(bool from_trial) {
   Model& model = *s.model;
   const auto solver = make_solver(model);
   std::vector<GrowthPlan> plans = plans_of(spec);
-  const auto trial = correct_directions(model, *solver, 1.0, plans);
+  const auto trial = correct_directions(model, *solver, 1.0, {1, 1}, plans);
   EXPECT_TRUE(trial.has_value());
   EXPECT_NE(plans[0].angle, plans_of(spec)[0].angle) << "a way that was off is corrected";
   CrackRegistry registry = model.registry();
-  apply_increments(increments_of(model, registry, plans), model.touch_distance(), 1, 0, registry);
+  apply_increments(increments_of(model, registry, plans), model.touch_distance(), {1, 0}, registry);
   model.lay_cracks(std::move(registry));
   if (from_trial && trial) model.start_from(*trial);
   s.equilibrium = find_equilibrium(model, *solver, 1.0);
@@ -75,7 +75,7 @@ TEST(CorrectedStep, LeavesTheModelAsItWas) {
   Model& model = *s.model;
   const std::vector<double> state = model.state();
   std::vector<GrowthPlan> plans = plans_of(spec);
-  correct_directions(model, *make_solver(model), 1.0, plans);
+  correct_directions(model, *make_solver(model), 1.0, {1, 1}, plans);
   EXPECT_EQ(model.state(), state);
   model.build_stiffness();
   const Equilibrium again = find_equilibrium(model, *make_solver(model), 1.0);

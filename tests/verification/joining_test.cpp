@@ -53,7 +53,8 @@ struct Joined {
     }
     const double touch = model->touch_distance();
     CrackRegistry registry = model->registry();
-    apply_increments(resolve_meetings(registry, model->body(), touch, incs), touch, 1, 0, registry);
+    apply_increments(resolve_meetings(registry, model->body(), touch, incs), touch, {1, 0},
+                     registry);
     model->lay_cracks(registry);
     equilibrium = find_equilibrium(*model, *make_solver(*model), 1.0);
   }
@@ -189,7 +190,7 @@ TEST(Joining, LeavesTheFieldAsItWasUntilTheCrackOpens) {
     CrackRegistry registry = model->registry();
     apply_increments(
         resolve_meetings(registry, model->body(), touch, {{0, 1, from, from + polar(turn, 2)}}),
-        touch, 1, 0, registry);
+        touch, {1, 0}, registry);
     ASSERT_EQ(registry.cracks()[0].ends[1].state, TipState::coalesced) << turn;
     model->lay_cracks(registry);
     EXPECT_NEAR(energy(), before, 1e-8 * before) << turn;
