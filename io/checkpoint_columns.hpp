@@ -128,6 +128,10 @@ inline constexpr auto performance_columns = [](auto&& visit) {
       "solver_iterations", "", [](auto& r) -> auto& { return r.performance.solver_iterations; });
   visit(
       "step_iterations", "", [](auto& r) -> auto& { return r.step_iterations; });
+  visit(
+      "step_contact_iterations", "", [](auto& r) -> auto& { return r.step_contact_iterations; });
+  visit(
+      "step_contact_unbalanced", "", [](auto& r) -> auto& { return r.step_contact_unbalanced; });
 };
 
 /// A crack but for its points and ages, which are tables of their own.

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of the arrays and their meaning; another one cannot be read.
-constexpr std::int64_t layout = 6;
+constexpr std::int64_t layout = 7;
 
 void put_cracks(Hdf5Output& file, const std::vector<Crack>& cracks) {
   std::vector<PointRow> points;

@@ -66,8 +66,9 @@ void ResultWriter::on_start(const Summary& summary) {
     const int last = summary.steps.empty() ? 0 : summary.steps.back().step;
     std::string rows = tips_csv_header();
     std::vector<std::pair<int, double>> earlier;
-    if (continued_) {
-      rows = rows_up_to(last, *continued_ / "tips.csv");
+    if (continued_) rows = rows_up_to(last, *continued_ / "tips.csv");
+    std::error_code error;
+    if (continued_ && fs::equivalent(*continued_, directory_, error)) {
       for (const StepRecord& step : summary.steps)
         earlier.emplace_back(step.step, step.load_factor);
     } else {

@@ -29,9 +29,13 @@ void fail_together(Communicator& communicator, const std::function<void()>& work
   } catch (const InputError& error) {
     const Problem& p = error.problems().front();
     mine = std::to_string(p.line) + between + p.key + between + p.message;
+  } catch (const SolveError& error) {
+    mine = between;
+    mine += error.what();
   }
   const std::string shown = first_failure(communicator, mine);
   if (shown.empty()) return;
+  if (shown.front() == between) throw SolveError(shown.substr(1));
   const auto key = shown.find(between), text = shown.find(between, key + 1);
   throw InputError(std::stoi(shown.substr(0, key)), shown.substr(key + 1, text - key - 1),
                    shown.substr(text + 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/cells/cell_stiffness.hpp"
 
+#include "core/base/first_failure.hpp"
 #include "core/base/marked.hpp"
 #include "core/cells/kept_rows.hpp"
 
@@ -75,7 +76,7 @@ CellStiffness::CellStiffness(const LocalMesh& mesh, const CellUnknowns& unknowns
   holds_ = holds_of_idle_functions(mesh, unknowns, rows_, communicator);
   add_all_springs(mesh, elements, springs);
   if (sweeps == Sweeps::one_after_the_other) {
-    build_groups(mesh, unknowns, held, with_rows);
+    fail_together(communicator, [&] { build_groups(mesh, unknowns, held, with_rows); });
     order_items();
     colour_ranks(mesh);
   }

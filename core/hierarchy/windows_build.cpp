@@ -31,14 +31,7 @@ class Windows::Builder {
     windows_.colours_.resize(std::size_t(plans_.colours));
     for (std::size_t w = 0; w < plans_.windows.size(); ++w) add_window(w);
     tell_solvers();
-    std::string failure;
-    try {
-      place_windows();
-    } catch (const SolveError& error) {
-      failure = error.what();
-    }
-    failure = first_failure(windows_.cells_.communicator(), failure);
-    if (!failure.empty()) throw SolveError(failure);
+    fail_together(windows_.cells_.communicator(), [&] { place_windows(); });
     set_exchanges();
   }
 

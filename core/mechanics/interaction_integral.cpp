@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/mechanics/interaction_integral.hpp"
 
+#include "core/base/first_failure.hpp"
 #include "core/cells/tip_quadrature.hpp"
 #include "core/mechanics/contact_patches.hpp"
 #include "core/mechanics/domain_weight.hpp"
@@ -171,19 +172,23 @@ std::vector<StressIntensity> stress_intensities(
     IntensityCache& cache, const TipChoice& wanted, const DomainReach& reach) {
   const StructuredGrid& grid = context.mesh.grid();
   const double h = grid.element_size().maxCoeff();
-  std::vector<double> sums;
   std::vector<StressIntensity> found;
   std::vector<const TipZone*> zones;
   for (const TipZone& zone : context.zones) {
     if (!zone.is_active || (wanted && !wanted(zone.crack, zone.end))) continue;
     zones.push_back(&zone);
-    sums.resize(2 * zones.size(), 0.0);
     const double room = free_radius(grid, cracks, zone);
     const double radius = std::max(std::min(reach.wanted * h, room), reach.smallest * h);
-    const IntegralDomain domain{zone, radius, loads.held_sides};
-    TipIntegral(context, domain, material, loads).add(state, cache, &sums[2 * zones.size() - 2]);
     found.push_back({zone.crack, zone.end, 0.0, 0.0, radius});
   }
+  std::vector<double> sums(2 * zones.size(), 0.0);
+  fail_together(communicator, [&] {
+    // a load may have no value at some place that only one rank asks for
+    for (std::size_t z = 0; z < zones.size(); ++z) {
+      const IntegralDomain domain{*zones[z], found[z].radius, loads.held_sides};
+      TipIntegral(context, domain, material, loads).add(state, cache, &sums[2 * z]);
+    }
+  });
   communicator.sum(std::span<double>(sums));
   for (std::size_t z = 0; z < found.size(); ++z) {
     found[z].k1 = 0.5 * material.fracture_modulus() * sums[2 * z];

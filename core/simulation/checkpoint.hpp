@@ -25,7 +25,10 @@ struct RunStory {
   std::vector<TipRecord> tips;        ///< at the end of the last load step
   std::vector<TipRecord> cycle_tips;  ///< of the growth cycles of the load step under way
   PerformanceRecord performance;
-  int step_iterations = 0;  ///< most in a linear solve of the load step under way
+  /// Of the load step under way, as in StepRecord.
+  int step_iterations = 0;
+  int step_contact_iterations = 0;
+  double step_contact_unbalanced = 0.0;
 };
 
 /// The same on every rank, but for the cells: these are some rows, each on one rank.

@@ -58,13 +58,18 @@ FaceTurns::FaceTurns(Model& model, ContactSolves& solves, Forces& given, const R
       limits[p] = std::max(0.0, before[p] + rule.ahead * (limits[p] - before[p]));
   }
   const bool turned = model.contact().respond(here, limits).springs;
-  if ((turned || drags()) && patience_.turns > 0) model.renew_stiffness(weak_);
+  // weak springs have the same beginning in a run that goes on
+  if ((turned || drags() || model.has_weak_springs()) && patience_.turns > 0)
+    model.renew_stiffness(weak_);
 }
 
 FaceTurns::End FaceTurns::turn() {
   if (patience_.turns == 0) return End::jammed;
   while (count_ < rule_.most) {
-    if (once()) return End::balanced;
+    if (once()) {
+      solves_.set_forces_of_faces();  // those of the springs as they are now
+      return End::balanced;
+    }
     if (cut_short_ >= patience_.short_moves || count_ == patience_.turns) return End::jammed;
   }
   return End::too_many;

@@ -207,7 +207,7 @@ std::optional<Model::CrackedField> correct_directions(Model& model, const Equili
     turned_any = turn_plans(model, load_factor, plans);
   }
   model.remember(memory);
-  model.lay_cracks(registry);
+  model.lay_cracks(registry, Model::OpenFaces::are_open);
   model.state() = state;
   return found;
 }

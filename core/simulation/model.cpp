@@ -199,7 +199,7 @@ FacesOfBody& Model::condensed(const std::vector<ContactAnswer>& closed) {
   });
 }
 
-void Model::lay_cracks(CrackRegistry registry) {
+void Model::lay_cracks(CrackRegistry registry, OpenFaces open) {
   const CellUnknowns old_unknowns = std::move(unknowns_);
   const ElementCuts old_cuts = std::move(cuts_);
   const std::vector<TipZone> old_zones = std::move(zones_);
@@ -212,7 +212,8 @@ void Model::lay_cracks(CrackRegistry registry) {
   changed.cuts = changed_cuts(old_cuts, cuts_);
   const CellUnknowns::Kept kept{old_unknowns, changed.cuts};
   build_cells(&kept);
-  close_new_faces();
+  if (open == OpenFaces::may_touch) close_new_faces();
+  origin_.clear();
   state_ = carried_state({mesh_, old_cuts, old_zones, old_unknowns}, std::move(old_state), basis());
   constexpr double weak_share = 1e-3;
   if (!stiffness_) {

@@ -38,8 +38,10 @@ class Model {
   void renew_stiffness(double weak_share = 1e-3);
   /// Replaces the cracks: re-types the cells, carries the displacements over as a start for the
   /// next equilibrium, and rebuilds the stiffness. Only what has changed is cut and integrated
-  /// anew. Bodies that nothing holds any more get a weak spring. Collective.
-  void lay_cracks(CrackRegistry registry);
+  /// anew. Bodies that nothing holds any more get a weak spring. Faces of such bodies touch until
+  /// an equilibrium shows that they do not, unless it is already known. Collective.
+  enum class OpenFaces { may_touch, are_open };
+  void lay_cracks(CrackRegistry registry, OpenFaces open = OpenFaces::may_touch);
 
   /// As lay_cracks() with cracks and contact of a run that goes on; the displacements are left at
   /// 0. Throws IoError when the patches are not those of the cracks. Collective.
@@ -147,7 +149,6 @@ class Model {
  private:
   void place_cracks();
   void find_zones();
-  /// Faces of bodies that nothing else holds touch until an equilibrium shows that they do not.
   void close_new_faces();
   /// All but the displacements.
   void build_cells(const CellUnknowns::Kept* kept);

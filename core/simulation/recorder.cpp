@@ -56,6 +56,8 @@ void Recorder::start(const Model& model, RunStory before) {
   if (!summary_.steps.empty()) summary_.load_factor = summary_.steps.back().load_factor;
   cycle_tips_ = std::move(before.cycle_tips);
   iterations_of_step_ = before.step_iterations;
+  contact_iterations_of_step_ = before.step_contact_iterations;
+  contact_unbalanced_of_step_ = before.step_contact_unbalanced;
   seconds_before_ = summary_.performance.wall_s;
   summary_.elements = model.grid().element_count();
   summary_.nodes = model.grid().node_count();
@@ -116,13 +118,15 @@ void Recorder::step(const Model& model, const StepResult& result, const Equilibr
 
 bool Recorder::rest(const Model& model, const EnergyLedger& energy, const Progress& progress,
                     bool last) {
-  const RestPoint point{progress,
-                        [&] {
-                          return take_checkpoint(model, energy, progress,
-                                                 {summary_.steps, summary_.tips, cycle_tips_,
-                                                  summary_.performance, iterations_of_step_});
-                        },
-                        last};
+  const RestPoint point{
+      progress,
+      [&] {
+        return take_checkpoint(
+            model, energy, progress,
+            {summary_.steps, summary_.tips, cycle_tips_, summary_.performance, iterations_of_step_,
+             contact_iterations_of_step_, contact_unbalanced_of_step_});
+      },
+      last};
   const Stopwatch output;
   for (Observer* o : observers_) left_ = o->on_rest(point) || left_;
   summary_.performance.output_s += output.seconds();

@@ -131,6 +131,7 @@ void expect_same(const Summary& a, const Summary& b) {
     EXPECT_EQ(a.steps[k].step, b.steps[k].step);
     EXPECT_NEAR(a.steps[k].load_factor, b.steps[k].load_factor, 1e-6);
     EXPECT_EQ(a.steps[k].growth_cycles, b.steps[k].growth_cycles);
+    EXPECT_EQ(a.steps[k].contact_iterations > 0, b.steps[k].contact_iterations > 0);
     EXPECT_NEAR(a.steps[k].external_work, b.steps[k].external_work,
                 1e-6 * a.steps[0].external_work);
     EXPECT_NEAR(a.steps[k].dissipated, b.steps[k].dissipated, 1e-6 * a.steps[0].external_work);
@@ -217,6 +218,41 @@ TEST(Restart, CanHaveOtherLoadSteps) {
   EXPECT_EQ(summary.steps.back().step, 3);
   spec.load_factors = {0.1, 0.4};
   EXPECT_EQ(run(spec, alone, after, &before.kept).steps.size(), 1u);
+}
+
+TEST(Restart, DoesNotDoAStepWithoutLoadTwice) {
+  CaseSpec spec = growing_cracks();
+  SerialCommunicator alone;
+  Witness before(0), after;
+  spec.growth.criterion = Criterion::none;
+  spec.load_factors = {0.0, 0.1};
+  run(spec, alone, before);
+  const Summary summary = run(spec, alone, after, &before.kept);
+  ASSERT_EQ(summary.steps.size(), 2u);
+  EXPECT_EQ(summary.steps.back().load_factor, 0.1);
+}
+
+/// Limits that are lower than where the run stands end it.
+TEST(Restart, CanHaveLowerLimits) {
+  CaseSpec spec = growing_cracks();
+  SerialCommunicator alone;
+  Witness before(2), after;
+  spec.load_factors = {1.0};
+  run(spec, alone, before);
+  ASSERT_EQ(before.kept.progress.cycles, 3);
+  spec.growth.cycles = 2;
+  Summary summary = run(spec, alone, after, &before.kept);
+  EXPECT_EQ(summary.steps.back().growth_cycles, before.kept.progress.cycles);
+  EXPECT_TRUE(std::any_of(summary.events.begin(), summary.events.end(),
+                          [](const EventRecord& e) { return e.kind == "unstable"; }));
+  spec = growing_cracks();
+  spec.loading.critical = true;
+  Witness event(2);
+  run(spec, alone, event);
+  spec.loading.max_events = event.kept.progress.steps;
+  summary = run(spec, alone, after, &event.kept);
+  EXPECT_EQ(summary.steps.back().step, event.kept.progress.steps + 1);
+  EXPECT_EQ(summary.status, "completed");
 }
 
 /// A pressed crack that slips has its slip and its tractions afterwards, and slips on.

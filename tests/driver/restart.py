@@ -209,6 +209,17 @@ class RestartTest(unittest.TestCase):
                 done = self.run_case("whole", "--restart", *arguments, ranks=ranks)
                 self.assertEqual(done.returncode, status, done.stdout + done.stderr)
                 self.assertEqual(done.stderr.count(message), 1, done.stderr)
+        done = self.run_case("beside", "--restart", "whole/checkpoint-14.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(rows(self.folder / "beside", "tips.csv")[0], rows(self.folder / "whole", "tips.csv")[0])
+        # fields of earlier steps lie where the run was; those of another run in this folder are not taken for them
+        (self.folder / "beside" / "fields.pvd").unlink()
+        for file in (self.folder / "whole" / "fields").iterdir():
+            (self.folder / "beside" / "fields" / file.name).write_bytes(file.read_bytes())
+        done = self.run_case("beside", "--restart", "whole/checkpoint-14.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        listed = re.findall(r'file="([^"]*)"', (self.folder / "beside" / "fields.pvd").read_text(encoding="utf-8"))
+        self.assertEqual(len(listed), 1, listed)
         done = self.run_case("nothing", "--restart")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('There is no checkpoint in the folder "nothing"', done.stderr)

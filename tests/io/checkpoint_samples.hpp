@@ -35,7 +35,7 @@ inline Checkpoint sample_checkpoint() {
   Checkpoint c;
   c.progress = {2, 3, 0.75, 0.875, 0.5, false};
   const Summary summary = sample_summary();
-  c.story = {summary.steps, summary.tips, {summary.tips[1]}, summary.performance, 17};
+  c.story = {summary.steps, summary.tips, {summary.tips[1]}, summary.performance, 17, 5, 1e-9};
   c.story.steps[1].external_work = 1.0 / 3.0;
   c.story.steps[1].dissipated = -2.0 / 3.0;
   c.story.cycle_tips[0].mode = "hoop";
@@ -83,10 +83,11 @@ inline void expect_same(const RunStory& a, const RunStory& b) {
   for (std::size_t k = 0; k < a.cycle_tips.size(); ++k)
     expect_same(a.cycle_tips[k], b.cycle_tips[k]);
   const PerformanceRecord &p = a.performance, &q = b.performance;
-  EXPECT_EQ(std::tie(p.wall_s, p.setup_s, p.solve_s, p.output_s, p.linear_solves,
-                     p.solver_iterations, a.step_iterations),
-            std::tie(q.wall_s, q.setup_s, q.solve_s, q.output_s, q.linear_solves,
-                     q.solver_iterations, b.step_iterations));
+  EXPECT_EQ(
+      std::tie(p.wall_s, p.setup_s, p.solve_s, p.output_s, p.linear_solves, p.solver_iterations,
+               a.step_iterations, a.step_contact_iterations, a.step_contact_unbalanced),
+      std::tie(q.wall_s, q.setup_s, q.solve_s, q.output_s, q.linear_solves, q.solver_iterations,
+               b.step_iterations, b.step_contact_iterations, b.step_contact_unbalanced));
 }
 
 /// All but the cells.
