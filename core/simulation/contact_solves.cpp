@@ -72,7 +72,7 @@ double ContactSolves::loads() const {
   return sum > 0.0 ? std::sqrt(sum) : slowest_.scale;
 }
 
-double ContactSolves::rounding(double largest) const {
+double ContactSolves::rounding(double largest, double worst) const {
   if (!model_.has_weak_springs() || !(largest > 0.0)) return 0.0;
   double stiffest = 0.0, farthest = 0.0;
   for (const ContactPatch& p : model_.contact().patches())
@@ -81,7 +81,11 @@ double ContactSolves::rounding(double largest) const {
   farthest = model_.communicator().max(farthest);
   constexpr double units = 8;  // in the last place, that gaps may be off
   const double off = units * std::numeric_limits<double>::epsilon() * farthest * stiffest;
-  return std::min(worst_balance, off / largest);
+  // what faces that hardly touch are out of balance may be less than any solve leaves
+  constexpr double of_tolerance = 0.1, most = 1e-2;
+  const double left =
+      of_tolerance * model_.spec().solver.tolerance * loads() / model_.grid().smallest_side();
+  return std::max(std::min(worst, off / largest), std::min(most, left / largest));
 }
 
 std::vector<ContactGap> ContactSolves::gaps() const {

@@ -25,8 +25,9 @@ class ContactSolves {
   /// not have gone far enough yet.
   double held_back(const std::vector<double>& move) const;
   /// How well tractions can be told at all, as a part of the largest: gaps are differences of
-  /// displacements, which are large where loose bodies have gone far. Collective.
-  double rounding(double largest) const;
+  /// displacements, which are large where loose bodies have gone far, and what is less than the
+  /// residual of a solve does not matter. Not more than `worst` for the former. Collective.
+  double rounding(double largest, double worst = worst_balance) const;
   /// What rounding may take from a balance at the worst, as a part of the largest traction.
   static constexpr double worst_balance = 1e-5;
   /// Weak springs where faces near them hold loose bodies, as a part of the cells' own stiffness.

@@ -96,6 +96,29 @@ TEST(LoosePartParallel, EndsARunAsSeparatedWhenItSlidesOff) {
   }
 }
 
+/// A joint that loads press at first and then pull apart. Beside it, faces of a crack hardly touch
+/// any more, so little that the way of the part leaves nothing of it in their gaps.
+TEST(LoosePartParallel, EndsARunAsSeparatedWhenItIsPulledOff) {
+  for (const double friction : {0.0, 0.3}) {
+    CaseSpec spec = plate({0, 0}, {1, 2}, 10, 20);
+    spec.solver.tolerance = 1e-8;
+    add_crack(spec, {{0, 1.03}, {1, 1.03}});
+    add_crack(spec, {{0, 0.53}, {0.3, 0.53}});
+    for (CrackSpec& crack : spec.cracks) crack.contact = rough(friction, 0.1);
+    BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom);
+    top.traction[0] = proportional_load(0);
+    top.traction[1] = {[](double, double, double s) { return 3 * s - 1; }, false, "3*s - 1"};
+    bottom.displacement = constant_load(0, 0);
+    spec.boundaries = {top, bottom};
+    spec.load_factors = {0.2, 0.4};
+    spec.material.toughness = 1.0;
+    spec.growth.criterion = Criterion::hoop;
+    const Summary s = run(spec);
+    EXPECT_EQ(s.status, "separated");
+    EXPECT_EQ(s.steps.size(), 2u);
+  }
+}
+
 /// The search for the next growth looks at much higher loads, in vain. There the chip that has come
 /// off the rim moves, but this has not happened to it.
 TEST(LoosePartParallel, IsWhereItWasAfterASearchInVain) {
