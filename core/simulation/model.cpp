@@ -2,6 +2,7 @@
 #include "core/simulation/model.hpp"
 
 #include "core/base/errors.hpp"
+#include "core/cells/rigid_motions.hpp"
 #include "core/cracks/junction_search.hpp"
 #include "core/cracks/level_set.hpp"
 #include "core/cracks/segments.hpp"
@@ -360,8 +361,9 @@ ExternalLoads Model::loads(double s) const {
 
 std::vector<StressIntensity> Model::stress_intensities(double load_factor,
                                                        const TipChoice& wanted) const {
-  return cdca::stress_intensities(basis(), registry_.cracks(), material_, loads(load_factor),
-                                  state_, communicator_, intensity_cache_, wanted);
+  const auto state = without_rigid_motions(basis(), *bodies_, state_, communicator_);
+  return cdca::stress_intensities(basis(), registry_.cracks(), material_, loads(load_factor), state,
+                                  communicator_, intensity_cache_, wanted);
 }
 
 FieldValue Model::field_at(const Vec2& x) const {
