@@ -92,6 +92,14 @@ class Stop {
   std::vector<double> state_;  ///< displacements
 };
 
+/// Faces that hold to each other without pressure may bear a part of loads under which they slide.
+bool less_may_hold(const Model& model) {
+  const auto& cracks = model.spec().cracks;
+  return std::any_of(cracks.begin(), cracks.end(), [](const CrackSpec& crack) {
+    return crack.contact.law == ContactLaw::cohesive || crack.contact.cohesion > 0.0;
+  });
+}
+
 CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver,
                                    const GrowthCriterion& criterion, const CriticalStart& start,
                                    Recorder& recorder) {
@@ -115,7 +123,7 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
       found.tips = criterion.assess(model, next);
       search.tell(greatest_index(found.tips));
     } catch (const SlidesOff&) {
-      if (!search.goes_beyond()) throw;
+      if (!search.goes_beyond() && !(start.last_factor == 0.0 && less_may_hold(model))) throw;
       search.tell(sliding_off);
     }
   }

@@ -119,6 +119,24 @@ TEST(LoosePartParallel, EndsARunAsSeparatedWhenItIsPulledOff) {
   }
 }
 
+/// The search begins at loads under which a joint that holds by cohesion slides. Under less than a
+/// third of those that it bears a flaw below grows.
+TEST(LoosePartParallel, HoldsUnderTheLoadsOfTheFirstGrowth) {
+  CaseSpec spec = growing(nearly_cut(0.3), true);
+  spec.cracks[0].points[1] = {1, 0.9};
+  spec.cracks[0].contact.cohesion = 0.5;
+  spec.boundaries[0].traction = constant_load(0, -10);
+  add_crack(spec, {{0.61, 0.21}, {0.82, 0.42}});
+  spec.cracks.back().contact = rough(0.0, 1.0 / 20);
+  spec.material.toughness = 0.2;
+  spec.loading.max_events = 2;
+  const Summary s = run(spec);
+  EXPECT_EQ(s.status, "completed") << s.message;
+  ASSERT_EQ(s.steps.size(), 2u);
+  EXPECT_LT(s.steps[0].load_factor, 0.1);
+  EXPECT_GT(s.steps[1].crack_length, s.steps[0].crack_length);
+}
+
 /// The search for the next growth looks at much higher loads, in vain. There the chip that has come
 /// off the rim moves, but this has not happened to it.
 TEST(LoosePartParallel, IsWhereItWasAfterASearchInVain) {
