@@ -142,6 +142,37 @@ def case_of(seed):
     return case
 
 
+def add_more(seed, case):
+    """What most cases do not have: shear strength, cohesion, cohesive faces, thickness, loads inside the plate."""
+    draw = random.Random(f"{seed} more")
+    size, material = case["domain"]["size"], case["material"]
+    element = size[0] / case["domain"]["cells"][0]
+    top = case["boundary"][2]
+    stress = abs(top["traction"][1] if "traction" in top else top["displacement"][1] / size[1] * material["young"])
+    case["domain"]["thickness"] = draw.choice([1.0, 0.01, 3.0])
+    if draw.random() < 0.5:
+        case["growth"]["criterion"] = "mixed"
+        material.update(cohesion=stress * draw.uniform(0.1, 1), friction_angle=draw.uniform(0, 45))
+        material["tensile_strength"] = material["toughness"] / math.sqrt(2 * math.pi * draw.uniform(0.3, 3) * element)
+        material["toughness"] *= draw.choice([1, 3])
+        case["growth"].update(field=draw.choice(["singular", "full"]), literal=draw.random() < 0.3)
+    laws = case.get("contact", {})
+    if laws.get("law") == "coulomb" and draw.random() < 0.5:
+        laws["cohesion"] = stress * draw.uniform(0.01, 0.5)
+    elif draw.random() < 0.5:
+        strength, gap = stress * draw.uniform(0.1, 2), stress / material["young"] * element * draw.uniform(0.3, 3)
+        soft = dict(law="cohesive", normal_stiffness=draw.uniform(10, 100) * strength / gap)
+        soft.update(cohesive_stiffness=strength / gap, critical_gap=gap)
+        if draw.random() < 0.5:
+            soft.update(tangential_stiffness=0.1 * soft["normal_stiffness"], friction=draw.uniform(0, 0.9))
+        case["crack"][0].update(soft)
+    if draw.random() < 0.3 and case["crack"][0].get("law") != "cohesive":
+        case["crack"][0]["name"] = "loaded"
+        case["boundary"].append(dict(on="crack:loaded", pressure=stress * draw.uniform(0, 0.5)))
+    if draw.random() < 0.3:
+        case["domain"]["body_force"] = [0.0, draw.choice([-1, 1]) * stress / size[1] * draw.uniform(0, 0.5)]
+
+
 def as_toml(case):
     """Values of a case file read the same in TOML as in JSON."""
     lines = []
@@ -167,15 +198,17 @@ def numbers_of(value):
 
 
 def most_work(case, factor):
-    """J that moving the top takes at most: that of the plate without cracks. None where tractions act."""
-    if any("traction" in block for block in case["boundary"]):
+    """J that moving the top takes at most: that of the plate without cracks. None where forces act."""
+    forces = ("traction", "pressure")
+    if "body_force" in case["domain"] or any(name in block for block in case["boundary"] for name in forces):
         return None
     move = case["boundary"][2]["displacement"][1] * factor
     width, height = case["domain"]["size"]
     # both ends may be held in x, which is no stiffer than a plate that is held in x everywhere
     poisson = case["material"]["poisson"]
     stiffer = (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    return 0.5 * case["material"]["young"] * stiffer * (move / height) ** 2 * width * height
+    volume = width * height * case["domain"].get("thickness", 1.0)
+    return 0.5 * case["material"]["young"] * stiffer * (move / height) ** 2 * volume
 
 
 def faults_of(case, summary):
@@ -219,6 +252,8 @@ class Trial:
     def __init__(self, options, folder, seed):
         self.options, self.folder, self.seed = options, folder, seed
         self.case = case_of(seed)
+        if options.more:
+            add_more(seed, self.case)
         if len(options.ranks) > 1:
             self.case["solver"] = dict(tolerance=TOLERANCE)
         self.file = folder / f"{seed}.toml"
@@ -282,6 +317,9 @@ def options():
     parser.add_argument("last", type=int, help="and of the last one")
     parser.add_argument(
         "-n", "--ranks", default="1", help="numbers of ranks, such as 1,2,4: the results must be the same (default 1)"
+    )
+    parser.add_argument(
+        "--more", action="store_true", help="also cohesion, cohesive faces, growth in shear, body forces and the like"
     )
     parser.add_argument("-j", "--jobs", type=int, default=1, help="cases at a time (default 1)")
     parser.add_argument("-s", "--seconds", type=float, default=120, help="for a run; one that takes longer is slow (default 120)")

@@ -92,10 +92,11 @@ class Stop {
   std::vector<double> state_;  ///< displacements
 };
 
-/// Faces that hold to each other without pressure may bear a part of loads under which they slide.
-bool less_may_hold(const Model& model) {
+/// Whether displacements are in proportion to loads until something grows. Faces that hold to each
+/// other without pressure bear a part of loads under which they would slide or part.
+bool is_proportional(const Model& model) {
   const auto& cracks = model.spec().cracks;
-  return std::any_of(cracks.begin(), cracks.end(), [](const CrackSpec& crack) {
+  return std::none_of(cracks.begin(), cracks.end(), [](const CrackSpec& crack) {
     return crack.contact.law == ContactLaw::cohesive || crack.contact.cohesion > 0.0;
   });
 }
@@ -123,7 +124,7 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
       found.tips = criterion.assess(model, next);
       search.tell(greatest_index(found.tips));
     } catch (const SlidesOff&) {
-      if (!search.goes_beyond() && !(start.last_factor == 0.0 && less_may_hold(model))) throw;
+      if (!search.goes_beyond() && (start.last_factor > 0.0 || is_proportional(model))) throw;
       search.tell(sliding_off);
     }
   }
@@ -137,13 +138,31 @@ CriticalState searched_to_critical(Model& model, const EquilibriumSolver& solver
   return found;
 }
 
+/// The same, once a first search has told about where it is: on the way there by steps, since what
+/// friction and tearing take depends on the way.
+CriticalState walked_to_critical(Model& model, const EquilibriumSolver& solver,
+                                 const GrowthCriterion& criterion, Stop stop, double factor,
+                                 Recorder& recorder) {
+  constexpr int steps = 40;
+  stop.go_back(factor, factor / steps);
+  double last = 0.0;
+  for (int k = 1; k < steps; ++k) {
+    last = factor * k / steps;
+    stop.move_to(solve_recorded(model, solver, last, recorder), last);
+  }
+  return searched_to_critical(model, solver, criterion, {last, last, stop.energy()}, recorder);
+}
+
 }  // namespace
 
 CriticalState find_critical(Model& model, const EquilibriumSolver& solver,
                             const GrowthCriterion& criterion, const CriticalStart& start,
                             Recorder& recorder) {
-  return model.contact().empty() ? scaled_to_critical(model, solver, criterion, start, recorder)
-                                 : searched_to_critical(model, solver, criterion, start, recorder);
+  if (model.contact().empty()) return scaled_to_critical(model, solver, criterion, start, recorder);
+  const Stop first(model, start);
+  const CriticalState found = searched_to_critical(model, solver, criterion, start, recorder);
+  if (start.last_factor > 0.0 || !found.grows || is_proportional(model)) return found;
+  return walked_to_critical(model, solver, criterion, first, found.factor, recorder);
 }
 
 }  // namespace cdca

@@ -26,7 +26,8 @@ struct CriticalStart {
 /// Without contact everything is proportional to the load factor, and one solve tells it. With
 /// contact the load goes to it step by step from that of the last growth: slip, and the work that
 /// it took, depend on the way. Long ways have stops, where what the faces have done becomes
-/// history.
+/// history; the way to the first growth has them where faces have cohesion, and nothing is in
+/// proportion to the loads.
 CriticalState find_critical(Model& model, const EquilibriumSolver& solver,
                             const GrowthCriterion& criterion, const CriticalStart& start,
                             Recorder& recorder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Faces that touch: patch tests (M3), the sliding block (M4), stick and slip (M5), closed inclined
 /// cracks, and cohesive faces.
+#include "core/simulation/simulation.hpp"
 #include "tests/plates.hpp"
 #include "tests/verification/reference_solve.hpp"
 
@@ -137,6 +138,43 @@ TEST(FrictionWork, CountsTheTractionsOfItsPath) {
   EXPECT_NEAR(slide(by_cracks, 0.01, Since::other_cracks), 2 * mean, 1e-6 * mean);
   const double further = slide(by_loads, 0.02, Since::other_loads);
   EXPECT_NEAR(slide(by_cracks, 0.02, Since::other_cracks), further, 1e-6 * further);
+}
+
+/// Flaws with cohesion stick at first, and slide long before one of them grows. What that takes is
+/// the same as on a way of many given steps.
+TEST(FrictionWork, IsKnownOnTheWayToTheFirstGrowth) {
+  CaseSpec spec = plate({0, 0}, {1, 1}, 24, 24);
+  for (const double y : {0.21, 0.45, 0.68}) {
+    add_crack(spec, {{0.13, y}, {0.46, y + 0.19}});
+    add_crack(spec, {{0.54, y - 0.04}, {0.87, y + 0.15}});
+  }
+  for (CrackSpec& crack : spec.cracks) {
+    crack.contact = coulomb(1e7, 1e6, 0.1);
+    crack.contact.cohesion = 1.0;
+  }
+  BoundarySpec top = on_side(Side::top), bottom = on_side(Side::bottom), pin = at_point({0, 0});
+  top.displacement[1] = proportional_load(-1e-3);
+  bottom.displacement[1] = proportional_load(0);
+  pin.displacement[0] = proportional_load(0);
+  spec.boundaries = {top, bottom, pin};
+  spec.solver.tolerance = 1e-10;
+  spec.material.toughness = 2.0;
+  spec.growth.criterion = Criterion::hoop;
+  spec.loading.critical = true;
+  spec.loading.max_events = 1;
+  const auto at_end = [](const CaseSpec& c) {
+    return run_simulation(c, "test", world(), world_partitioner(), {}).steps.back();
+  };
+  const StepRecord critical = at_end(spec);
+  spec.loading.critical = false;
+  spec.growth.criterion = Criterion::none;
+  spec.load_factors.clear();
+  for (int k = 1; k <= 100; ++k) spec.load_factors.push_back(k * critical.load_factor / 100);
+  const StepRecord given = at_end(spec);
+  EXPECT_GT(given.friction_work, 0.05 * given.external_work);
+  EXPECT_NEAR(critical.friction_work, given.friction_work, 0.01 * given.friction_work);
+  EXPECT_NEAR(critical.external_work, given.external_work, 0.001 * given.external_work);
+  EXPECT_NEAR(critical.dissipated, critical.friction_work, 1e-3 * critical.external_work);
 }
 
 class SlidingBlock : public ::testing::TestWithParam<double> {};
